@@ -1,0 +1,104 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bspc/grid.h"
+#include "bspc/io.h"
+#include "bspc/limits.h"
+#include "bspc/method.h"
+#include "bspc/progress.h"
+
+namespace bspc {
+
+/// One layer of a file, over all tiles (docs/format.md, "Layers").
+struct LayerInfo {
+  std::uint64_t points = 0;  ///< representatives up to this layer; the last layer: all points
+  std::uint32_t spread = 0;  ///< along each axis, no point is farther than this many grid steps
+                             ///< from its representative; 0 in the last layer
+  std::uint64_t bytes = 0;   ///< payload of this layer alone
+};
+
+struct TileInfo {
+  Method method = Method::Kd;
+  unsigned methodVersion = 0;
+  std::uint64_t points = 0;
+  GridPoint lower{};  ///< tight box of the tile's points, inclusive
+  GridPoint upper{};
+};
+
+/// What a file says about itself; known without decoding any points.
+struct FileInfo {
+  unsigned versionMajor = 0;
+  unsigned versionMinor = 0;
+  bool streaming = false;
+  Grid grid;
+  std::uint64_t points = 0;
+  std::uint64_t fileBytes = 0;
+  std::uint64_t geometryBytes = 0;  ///< payload of all layers and tiles
+  GridPoint lower{};                ///< box of all points, inclusive; zeros if there are none
+  GridPoint upper{};
+  std::vector<LayerInfo> layers;
+  std::vector<TileInfo> tiles;
+  /// Layers that are whole in this file; less than layers.size() only in a truncated file that
+  /// was opened with allowPartial.
+  unsigned wholeLayers = 0;
+};
+
+struct OpenOptions {
+  DecodeLimits limits;
+  /// Accept a file that ends early, and decode its longest whole prefix.
+  bool allowPartial = false;
+};
+
+struct DecodeOptions {
+  /// Decode layers 0 … level only; empty: all that are there.
+  std::optional<unsigned> level;
+  /// At most so many points: the finest level that fits, thinned where even the coarsest does not.
+  std::optional<std::uint64_t> maxPoints;
+  bool wantCounts = false;  ///< fill DecodedPoints::counts
+  /// Fill DecodedPoints::cellIds with the BSP cell of this level that each point lies in; a level
+  /// finer than the decoded one is an error.
+  std::optional<unsigned> cellLevel;
+  ProgressCallback progress;
+};
+
+/// Decoded points, in the coder's order.
+struct DecodedPoints {
+  std::vector<GridPoint> points;
+  /// How many points each stands for (1 for all in the last layer); only if asked for.
+  std::vector<std::uint64_t> counts;
+  /// Only if asked for. Ids are 0-based and consecutive over the file.
+  std::vector<std::uint64_t> cellIds;
+  unsigned level = 0;      ///< the finest layer that was used
+  bool complete = true;    ///< every point of the original is there
+};
+
+/// An open .bspc file: reads head and index at once, the rest on demand.
+class Decoder {
+ public:
+  /// Reads head and index. Throws Error (NotBspc, Truncated, Corrupt, Unsupported, LimitExceeded).
+  explicit Decoder(std::shared_ptr<ByteSource> source, const OpenOptions& options = {});
+  ~Decoder();
+  Decoder(Decoder&&) noexcept;
+  Decoder& operator=(Decoder&&) noexcept;
+
+  const FileInfo& info() const;
+
+  /// Decodes points. Every block that is read is checked against its checksum, a whole tile also
+  /// against the checksum of its decoded content. May be called again with other options.
+  DecodedPoints decode(const DecodeOptions& options = {});
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Whether a file with these first bytes claims to be .bspc (8 bytes are enough).
+bool isBspc(ByteView firstBytes);
+
+}  // namespace bspc

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "bspc/grid.h"
+#include "bspc/io.h"
+#include "bspc/method.h"
+#include "bspc/point_set.h"
+#include "bspc/progress.h"
+
+namespace bspc {
+
+/// Where the index of a file stands (docs/format.md, "Layouts").
+enum class Layout {
+  /// In front: every prefix of the file that ends on a layer decodes.
+  Progressive,
+  /// At the end: tiles are written as they come, memory stays bounded, pipes work.
+  Streaming,
+};
+
+constexpr unsigned kMaxLayers = 32;
+
+struct EncodeOptions {
+  GridRequest grid;
+  std::optional<Method> method;  ///< empty: the encoder's choice
+  unsigned layers = 0;           ///< 1 … kMaxLayers; 0: by the number of points, 1 below 4,096
+  Layout layout = Layout::Progressive;
+  bool wantOrder = false;  ///< fill EncodeReport::order
+  ProgressCallback progress;
+};
+
+/// What was written.
+struct EncodeReport {
+  Grid grid;
+  Method method = Method::Kd;
+  std::uint64_t points = 0;
+  std::uint64_t dropped = 0;  ///< non-finite points left out on request
+  std::uint64_t tiles = 0;
+  unsigned layers = 1;
+  std::uint64_t fileBytes = 0;
+  std::uint64_t geometryBytes = 0;  ///< of them, geometry payload
+  bool exact = true;                ///< see GridFit
+  std::array<double, 3> maxError{};
+  /// Input index of the j-th point that a decoder returns; only if wantOrder.
+  std::vector<std::uint64_t> order;
+};
+
+/// Compresses a point set. Throws Error; what was written to the sink by then is to be discarded.
+/// Named arrays are refused (Unsupported) rather than dropped.
+EncodeReport encode(const PointSetView& points, ByteSink& sink, const EncodeOptions& options = {});
+
+}  // namespace bspc

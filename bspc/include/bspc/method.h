@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace bspc {
+
+/// How the positions of a tile are coded. The values are those of the file format.
+enum class Method : std::uint8_t {
+  Kd = 1,  ///< kd-tree with point counts (Gandoin and Devillers 2002), adaptive models
+};
+
+/// Name as spelt on the command line ("kd"), and back; empty if there is no such method.
+const char* methodName(Method method);
+std::optional<Method> methodFromName(const std::string& name);
+
+/// Every method that this version can encode and decode.
+std::vector<Method> availableMethods();
+
+}  // namespace bspc
