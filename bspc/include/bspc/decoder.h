@@ -74,8 +74,8 @@ struct DecodedPoints {
   std::vector<std::uint64_t> counts;
   /// Only if asked for. Ids are 0-based and consecutive over the file.
   std::vector<std::uint64_t> cellIds;
-  unsigned level = 0;      ///< the finest layer that was used
-  bool complete = true;    ///< every point of the original is there
+  unsigned level = 0;    ///< the finest layer that was used
+  bool complete = true;  ///< every point of the original is there
 };
 
 /// An open .bspc file: reads head and index at once, the rest on demand.

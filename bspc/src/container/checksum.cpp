@@ -1,0 +1,52 @@
+#include "container/checksum.h"
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+namespace bspc::container {
+
+namespace {
+
+std::uint64_t cut(std::uint64_t hash, unsigned width) {
+  return width == 8 ? hash : hash & ((std::uint64_t{1} << (8 * width)) - 1);
+}
+
+}  // namespace
+
+std::uint64_t checksum(ByteView bytes, unsigned width) {
+  return cut(XXH3_64bits(bytes.data(), bytes.size()), width);
+}
+
+unsigned contentChecksumWidth(std::uint64_t points) {
+  return points < 65536 / 12 + 1 ? checksumWidth(12 * points) : 8;
+}
+
+std::uint64_t contentChecksum(Span<const GridPoint> points) {
+  // Packed into little-endian bytes piece by piece, so that the order of bytes in this machine's
+  // memory does not matter.
+  constexpr std::size_t kPiece = 1024;
+  std::array<std::uint8_t, 12 * kPiece> piece{};
+  const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(),
+                                                                       &XXH3_freeState);
+  XXH3_64bits_reset(state.get());
+  for (std::size_t first = 0; first < points.size(); first += kPiece) {
+    const std::size_t count = std::min(kPiece, points.size() - first);
+    std::uint8_t* to = piece.data();
+    for (const GridPoint& point : points.subspan(first, count)) {
+      for (const std::uint32_t v : point) {
+        *to++ = static_cast<std::uint8_t>(v);
+        *to++ = static_cast<std::uint8_t>(v >> 8);
+        *to++ = static_cast<std::uint8_t>(v >> 16);
+        *to++ = static_cast<std::uint8_t>(v >> 24);
+      }
+    }
+    XXH3_64bits_update(state.get(), piece.data(), 12 * count);
+  }
+  return cut(XXH3_64bits_digest(state.get()), contentChecksumWidth(points.size()));
+}
+
+}  // namespace bspc::container

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "bspc/grid.h"
+#include "bspc/span.h"
+#include "container/byte_writer.h"
+
+namespace bspc::container {
+
+/// Bytes of the checksum of `size` bytes of content: short content has a short one.
+constexpr unsigned checksumWidth(std::uint64_t size) { return size < 65536 ? 4 : 8; }
+
+/// XXH3 (64 bits, seed 0) of the bytes, cut to the low `width` bytes.
+std::uint64_t checksum(ByteView bytes, unsigned width);
+
+/// The checksum of a tile's decoded content: its points in decoded order, from the tile's lower
+/// corner, as little-endian 32-bit x, y, z. `width` is that of 12 bytes a point.
+std::uint64_t contentChecksum(Span<const GridPoint> points);
+unsigned contentChecksumWidth(std::uint64_t points);
+
+}  // namespace bspc::container

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bspc/decoder.h"
+#include "bspc/io.h"
+#include "container/file_head.h"
+
+namespace bspc::container {
+
+/// A file's head and index, and access to its chunks. Both layouts end up as the same table.
+class ContainerReader {
+ public:
+  ContainerReader(std::shared_ptr<ByteSource> source, const OpenOptions& options);
+
+  const FileHead& head() const { return head_; }
+  const std::vector<TileRecord>& tiles() const { return head_.tiles; }
+  unsigned versionMinor() const { return versionMinor_; }
+  std::uint64_t fileBytes() const { return source_->size(); }
+  /// Layers whose chunks are all inside the file; at least 1 unless there are no tiles.
+  unsigned wholeLayers() const { return wholeLayers_; }
+  /// Tiles were lost at the end (streaming layout, cut short).
+  bool tilesMissing() const { return tilesMissing_; }
+
+  /// The payload of a chunk, checked.
+  Bytes chunk(std::size_t tile, std::size_t column) const;
+  /// Streaming layout: checks that the tile's own record is that of the index.
+  void checkTileBlock(std::size_t tile) const;
+
+ private:
+  void readPreamble();
+  void openProgressive(std::uint64_t chunksOffset, const OpenOptions& options);
+  void openStreaming(std::uint64_t firstTile, const OpenOptions& options);
+  /// The index that the End block at the end of the file leads to; false if there is none.
+  bool readIndex(std::uint64_t firstTile, const DecodeLimits& limits);
+  void recoverTiles(std::uint64_t firstTile, const DecodeLimits& limits);
+  void readTrailingBlocks(std::uint64_t offset, std::uint64_t end) const;
+  std::string chunkName(std::size_t tile, std::size_t column) const;
+
+  std::shared_ptr<ByteSource> source_;
+  FileHead head_;
+  unsigned versionMinor_ = 0;
+  unsigned wholeLayers_ = 0;
+  bool tilesMissing_ = false;
+  std::vector<std::uint64_t> chunkOffsets_;  ///< tile-major, head_.columns() a tile
+  std::vector<std::uint64_t> tileBlocks_;    ///< streaming layout: offsets of the tiles' blocks
+};
+
+}  // namespace bspc::container

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "bspc/grid.h"
+#include "bspc/limits.h"
+#include "container/byte_reader.h"
+#include "container/byte_writer.h"
+#include "container/tile_record.h"
+
+namespace bspc::container {
+
+/// First bytes of every file. As PNG's, they do not survive a transfer that strips the top bit,
+/// changes line ends or stops at a control-Z.
+constexpr std::array<std::uint8_t, 8> kSignature{0x8B, 'B', 'S', 'P', '\r', '\n', 0x1A, '\n'};
+constexpr unsigned kVersionMajor = 0;
+constexpr unsigned kVersionMinor = 1;
+/// Signature, major, minor.
+constexpr std::size_t kPreambleSize = kSignature.size() + 2;
+
+/// What the head block says (docs/format.md, "Head").
+struct FileHead {
+  unsigned layers = 1;
+  bool streaming = false;       ///< the tile table stands in the index block at the end
+  bool trailingBlocks = false;  ///< progressive layout: blocks follow the chunks
+  Grid grid;
+  std::vector<TileRecord> tiles;  ///< progressive layout only
+
+  /// Chunks that every tile has: one a layer, then (with arrays) one an array.
+  std::size_t columns() const { return layers; }
+};
+
+/// The content of the head block.
+Bytes writeHead(const FileHead& head);
+FileHead readHead(ByteReader& in, const DecodeLimits& limits);
+
+void writeTileTable(ByteWriter& out, const std::vector<TileRecord>& tiles);
+/// The table; `recordSizes` receives the bytes that each record takes.
+std::vector<TileRecord> readTileTable(ByteReader& in, const FileHead& head,
+                                      const DecodeLimits& limits,
+                                      std::vector<std::size_t>* recordSizes);
+
+}  // namespace bspc::container

@@ -1,0 +1,52 @@
+#include "geometry/geometry_method.h"
+
+#include <array>
+
+#include "geometry/kd/kd_method.h"
+
+namespace bspc {
+
+namespace {
+
+struct NamedMethod {
+  Method id;
+  const char* name;
+};
+
+constexpr std::array<NamedMethod, 1> kMethods{{{Method::Kd, "kd"}}};
+
+}  // namespace
+
+const char* methodName(Method method) {
+  for (const NamedMethod& m : kMethods) {
+    if (m.id == method) return m.name;
+  }
+  return "unknown";
+}
+
+std::optional<Method> methodFromName(const std::string& name) {
+  for (const NamedMethod& m : kMethods) {
+    if (name == m.name) return m.id;
+  }
+  return std::nullopt;
+}
+
+std::vector<Method> availableMethods() {
+  std::vector<Method> methods;
+  for (const NamedMethod& m : kMethods) methods.push_back(m.id);
+  return methods;
+}
+
+namespace geometry {
+
+const GeometryMethod* findGeometryMethod(Method id) {
+  static const KdMethod kd;
+  switch (id) {
+    case Method::Kd:
+      return &kd;
+  }
+  return nullptr;
+}
+
+}  // namespace geometry
+}  // namespace bspc
