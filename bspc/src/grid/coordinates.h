@@ -1,0 +1,80 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "bspc/point_set.h"
+
+namespace bspc::lattice {
+
+/// The least and the greatest coordinate along one axis; −0 counts as +0.
+struct AxisRange {
+  double min = 0;
+  double max = 0;
+
+  bool constant() const { return min == max; }
+  double maxAbs() const { return std::max(max, -min); }
+  /// Infinite if the two ends are more than the largest double apart.
+  double extent() const { return max - min; }
+};
+
+using Ranges = std::array<AxisRange, 3>;
+
+/// The coordinates of the points that are kept, converted to double a chunk at a time, so that
+/// nothing needs a copy of the points or a type switch for each number.
+class Coordinates {
+ public:
+  static constexpr std::size_t kChunk = 512;
+  using Chunk = std::array<double, kChunk>;
+
+  /// Both must outlive this; `kept` holds input indices, and is empty for "all of them".
+  Coordinates(const PointSetView& points, const std::vector<std::uint64_t>& kept)
+      : points_(points), kept_(kept), size_(kept.empty() ? points.size() : kept.size()) {}
+
+  std::uint64_t size() const { return size_; }
+  ScalarType type() const { return points_.type(); }
+
+  /// Coordinates of the points first … first + count − 1 along `axis`, each `hop` points apart.
+  void gather(std::size_t axis, std::uint64_t first, std::size_t count, double* out,
+              std::uint64_t hop = 1) const;
+
+  /// Up to `wanted` coordinates spread over the whole set.
+  std::vector<double> sample(std::size_t axis, std::size_t wanted) const;
+
+  /// Calls visit(value) for every coordinate along `axis` until it returns false; whether it
+  /// never did.
+  template <class Visit>
+  bool all(std::size_t axis, Visit visit) const {
+    Chunk chunk;
+    for (std::uint64_t first = 0; first < size_; first += kChunk) {
+      const std::size_t count = chunkSize(first);
+      gather(axis, first, count, chunk.data());
+      for (std::size_t i = 0; i < count; ++i) {
+        if (!visit(chunk[i])) return false;
+      }
+    }
+    return true;
+  }
+
+  std::size_t chunkSize(std::uint64_t first) const {
+    return static_cast<std::size_t>(std::min<std::uint64_t>(kChunk, size_ - first));
+  }
+
+ private:
+  template <class T>
+  void gatherAs(std::size_t axis, std::uint64_t first, std::size_t count, double* out,
+                std::uint64_t hop) const;
+
+  const PointSetView& points_;
+  const std::vector<std::uint64_t>& kept_;
+  std::uint64_t size_;
+};
+
+/// Throws Error(InvalidArgument) naming the point if a 64-bit integer is beyond ±2^53, where
+/// doubles have gaps.
+void requireIntegersInDoubles(const PointSetView& points);
+
+}  // namespace bspc::lattice

@@ -1,0 +1,276 @@
+#include "grid/grid_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+
+#include "bspc/error.h"
+#include "grid/axis_map.h"
+#include "grid/lattice.h"
+#include "grid/step_choice.h"
+
+namespace bspc {
+
+namespace lattice {
+
+namespace {
+
+// Shares of the work that are done after each stage.
+constexpr double kScanned = 0.1;
+constexpr double kGridChosen = 0.5;
+
+std::string text(double value, int digits = 9) {
+  std::array<char, 40> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%.*g", digits, value);
+  return buffer.data();
+}
+
+/// Whether any of the numbers is NaN or infinite.
+bool anyNonFinite(const Coordinates::Chunk& chunk, std::size_t count) {
+  double sum = 0;
+  for (std::size_t i = 0; i < count; ++i) sum += chunk[i] * 0.0;  // NaN from either
+  return sum != 0;
+}
+
+/// What goes wrong with one chunk of points: marks those that are not finite.
+class FiniteMarks {
+ public:
+  using Marks = std::array<bool, Coordinates::kChunk>;
+
+  FiniteMarks(const Coordinates& coordinates, std::uint64_t first, std::size_t count) {
+    bad_.fill(false);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      coordinates.gather(axis, first, count, chunk_.data());
+      if (!anyNonFinite(chunk_, count)) continue;
+      for (std::size_t i = 0; i < count; ++i) bad_[i] = bad_[i] || !std::isfinite(chunk_[i]);
+    }
+  }
+  bool bad(std::size_t i) const { return bad_[i]; }
+  std::size_t count() const {
+    return static_cast<std::size_t>(std::count(bad_.begin(), bad_.end(), true));
+  }
+
+ private:
+  Coordinates::Chunk chunk_{};
+  Marks bad_{};
+};
+
+[[noreturn]] void refuseNonFinite(const PointSetView& points, std::uint64_t index,
+                                  std::uint64_t others) {
+  const auto xyz = points.position(index);
+  std::size_t axis = 0;
+  while (std::isfinite(xyz[axis])) ++axis;
+  const std::string number =
+      std::isnan(xyz[axis]) ? "nan" : (xyz[axis] > 0 ? "inf" : "-inf");
+  const std::string more =
+      others == 0 ? "" : " (and " + std::to_string(others) + " more points are not finite)";
+  throw Error(ErrorCode::NonFinite, "point " + std::to_string(index) + " has " + "xyz"[axis] +
+                                        " = " + number + more +
+                                        "; leave such points out with --drop-nonfinite "
+                                        "(dropNonFinite in the library), or repair them");
+}
+
+/// A step with one significant digit that makes the extent fit.
+double coarseEnough(double extent) {
+  const double least = extent / kMaxIndex;
+  const double unit = std::pow(10, std::floor(std::log10(least)));
+  return unit > 0 ? std::ceil(least / unit * (1 + 1e-9)) * unit : least;
+}
+
+[[noreturn]] void refuseExtent(const AxisRange& range, std::size_t axis, double step) {
+  const double extent = range.max / 2 - range.min / 2;  // halved: the whole may overflow
+  const double fitting = 2 * coarseEnough(extent);
+  const std::string size = std::isfinite(2 * extent) ? text(2 * extent) : "2 * " + text(extent);
+  throw Error(ErrorCode::OutOfGrid,
+              std::string("the extent ") + size + " along " + "xyz"[axis] +
+                  " takes more than the 2^32 steps of " + text(step) +
+                  " that a grid has; use a precision of " + text(fitting, 3) + " or coarser");
+}
+
+[[noreturn]] void refuseFarCoordinate(double value, std::size_t axis, double step) {
+  throw Error(ErrorCode::OutOfGrid,
+              std::string("the coordinate ") + "xyz"[axis] + " = " + text(value) +
+                  " is 2^53 or more steps of " + text(step) +
+                  " away from the start of the grid; use a coarser grid or move the points");
+}
+
+}  // namespace
+
+void Progress::report(double share) const {
+  if (callback_ && !callback_(share)) {
+    throw Error(ErrorCode::Cancelled,
+                "putting the points on a grid was cancelled by the caller; nothing was kept");
+  }
+}
+
+std::vector<std::uint64_t> finitePoints(const PointSetView& points, bool drop) {
+  std::vector<std::uint64_t> kept;
+  if (!isFloatingPoint(points.type())) return kept;
+  const std::vector<std::uint64_t> none;
+  const Coordinates all(points, none);
+  std::uint64_t bad = 0;
+  std::uint64_t firstBad = 0;
+  for (std::uint64_t first = 0; first < all.size(); first += Coordinates::kChunk) {
+    const std::size_t size = all.chunkSize(first);
+    const FiniteMarks marks(all, first, size);
+    const std::size_t count = marks.count();
+    for (std::size_t i = 0; bad == 0 && count > 0; ++i) {
+      if (!marks.bad(i)) continue;
+      firstBad = first + i;
+      break;
+    }
+    bad += count;
+  }
+  if (bad == 0) return kept;
+  if (!drop) refuseNonFinite(points, firstBad, bad - 1);
+  kept.reserve(static_cast<std::size_t>(all.size() - bad));
+  for (std::uint64_t first = 0; first < all.size(); first += Coordinates::kChunk) {
+    const std::size_t size = all.chunkSize(first);
+    const FiniteMarks marks(all, first, size);
+    for (std::size_t i = 0; i < size; ++i) {
+      if (!marks.bad(i)) kept.push_back(first + i);
+    }
+  }
+  return kept;
+}
+
+Ranges rangesOf(const Coordinates& coordinates) {
+  Ranges ranges;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    double min = std::numeric_limits<double>::infinity();
+    double max = -min;
+    coordinates.all(axis, [&](double value) {
+      min = std::min(min, value);
+      max = std::max(max, value);
+      return true;
+    });
+    ranges[axis] = {min + 0.0, max + 0.0};
+  }
+  return ranges;
+}
+
+void placeBases(Grid& grid, const Ranges& ranges) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const AxisMap map(grid, axis);
+    const AxisRange& range = ranges[axis];
+    for (const double end : {range.min, range.max}) {
+      if (map.reaches(end)) continue;
+      if (!(range.extent() / map.step() <= kMaxIndex)) refuseExtent(range, axis, map.step());
+      refuseFarCoordinate(end, axis, map.step());
+    }
+    const double lowest = map.snap(range.min).multiple;
+    if (map.snap(range.max).multiple - lowest > kMaxIndex) refuseExtent(range, axis, map.step());
+    grid.axes[axis].base = static_cast<std::int64_t>(lowest);
+  }
+}
+
+void quantise(const Coordinates& coordinates, const Ranges& ranges, GridFit& fit,
+              const Progress& progress) {
+  constexpr std::uint64_t kReportEvery = 128 * Coordinates::kChunk;
+  const std::array<AxisMap, 3> maps{AxisMap(fit.grid, 0), AxisMap(fit.grid, 1),
+                                    AxisMap(fit.grid, 2)};
+  fit.points.resize(static_cast<std::size_t>(coordinates.size()));
+  fit.maxError = {};
+  Coordinates::Chunk chunk{};
+  const auto total = static_cast<double>(coordinates.size());
+  for (std::uint64_t first = 0; first < coordinates.size(); first += Coordinates::kChunk) {
+    if (first % kReportEvery == 0) {
+      progress.report(kGridChosen + (1 - kGridChosen) * (static_cast<double>(first) / total));
+    }
+    const std::size_t count = coordinates.chunkSize(first);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const AxisMap map = maps[axis];
+      const auto base = static_cast<double>(fit.grid.axes[axis].base);
+      // Ties may be broken differently for neighbours, but nothing may leave the index range.
+      const double top = map.snap(ranges[axis].max).multiple;
+      double maxError = fit.maxError[axis];
+      coordinates.gather(axis, first, count, chunk.data());
+      for (std::size_t i = 0; i < count; ++i) {
+        AxisMap::Snapped snapped = map.snap(chunk[i]);
+        if (snapped.multiple < base || snapped.multiple > top) {
+          snapped.multiple = std::max(base, std::min(top, snapped.multiple));
+          snapped.error = std::fabs(map.restored(snapped.multiple) - chunk[i]);
+        }
+        maxError = std::max(maxError, snapped.error);
+        fit.points[static_cast<std::size_t>(first) + i][axis] =
+            static_cast<std::uint32_t>(snapped.multiple - base);
+      }
+      fit.maxError[axis] = maxError;
+    }
+  }
+  fit.exact = fit.maxError[0] == 0 && fit.maxError[1] == 0 && fit.maxError[2] == 0;
+}
+
+namespace {
+
+Grid automaticGrid(const Coordinates& coordinates, const Ranges& ranges) {
+  if (const auto lattice = detectLattice(coordinates, ranges)) return *lattice;
+  if (isFloatingPoint(coordinates.type())) return defaultGrid(coordinates.type(), ranges);
+  Grid wholeNumbers;  // which placing the bases will refuse by the axis that is too large
+  wholeNumbers.scalarType = coordinates.type();
+  return wholeNumbers;
+}
+
+Grid chooseGrid(const Coordinates& coordinates, const Ranges& ranges, const GridRequest& request) {
+  const ScalarType type = coordinates.type();
+  const bool point = ranges[0].constant() && ranges[1].constant() && ranges[2].constant();
+  switch (request.kind) {
+    case GridRequest::Kind::Bits:
+      if (!point) return gridWithBits(type, ranges, request.bits);
+      break;
+    case GridRequest::Kind::Precision:
+      return gridWithPrecision(type, ranges, request.precision);
+    case GridRequest::Kind::Reuse: {
+      Grid grid = request.reuse;
+      grid.scalarType = type;
+      return grid;
+    }
+    case GridRequest::Kind::Automatic:
+      break;
+  }
+  return automaticGrid(coordinates, ranges);
+}
+
+void validate(const GridRequest& request) {
+  if (request.kind == GridRequest::Kind::Bits) GridRequest::withBits(request.bits);
+  if (request.kind == GridRequest::Kind::Precision) GridRequest::withPrecision(request.precision);
+  if (request.kind == GridRequest::Kind::Reuse) request.reuse.validate();
+}
+
+Grid emptyGrid(ScalarType type, const GridRequest& request) {
+  Grid grid;
+  if (request.kind == GridRequest::Kind::Reuse) grid = request.reuse;
+  for (Grid::Axis& axis : grid.axes) axis.base = 0;
+  grid.scalarType = type;
+  return grid;
+}
+
+/// Whether rounding to the scalar type breaks the promised half of the precision, which the
+/// doubles themselves keep.
+bool needsDoubles(const GridFit& fit, const GridRequest& request) {
+  if (request.kind != GridRequest::Kind::Precision) return false;
+  const double allowed = request.precision / 2 * (1 + 1e-9);
+  return fit.grid.scalarType != ScalarType::Float64 &&
+         *std::max_element(fit.maxError.begin(), fit.maxError.end()) > allowed;
+}
+
+}  // namespace
+
+}  // namespace lattice
+
+GridFit fitGrid(const PointSetView& points, const GridRequest& request,
+                const ProgressCallback& callback) {
+  using namespace lattice;
+  lattice::validate(request);
+  const Progress progress(callback);
+  progress.report(0);
+  GridFit fit;
+  requireIntegersInDoubles(points);
+  fit.sourceIndex = finitePoints(points, request.dropNonFinite);
+  // All points dropped leaves an empty list as well, which must not read as "none dropped".
+  return fit;
+}
+
+}  // namespace bspc

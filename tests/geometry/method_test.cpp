@@ -1,0 +1,176 @@
+// What every geometry method promises, checked for all of them over random and degenerate sets.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <random>
+
+#include "bspc/error.h"
+#include "geometry/geometry_method.h"
+#include "support/point_sets.h"
+
+namespace bspc::geometry {
+namespace {
+
+TileInput tileOf(const std::vector<GridPoint>& points, unsigned layers) {
+  TileInput tile;
+  tile.points = points;
+  tile.layers = layers;
+  GridPoint upper = points[0];
+  tile.lower = points[0];
+  for (const GridPoint& p : points) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      tile.lower[k] = std::min(tile.lower[k], p[k]);
+      upper[k] = std::max(upper[k], p[k]);
+    }
+  }
+  for (std::size_t k = 0; k < 3; ++k) tile.extent[k] = upper[k] - tile.lower[k];
+  return tile;
+}
+
+TileToDecode toDecode(const TileInput& tile, const EncodedTile& coded, unsigned layers) {
+  TileToDecode decode;
+  decode.points = tile.points.size();
+  decode.extent = tile.extent;
+  decode.layers = tile.layers;
+  for (unsigned l = 0; l < layers; ++l) decode.payloads.emplace_back(coded.layers[l]);
+  decode.maxPoints = std::numeric_limits<std::uint32_t>::max();
+  decode.maxBytes = std::uint64_t{1} << 30;
+  decode.maxDepth = 512;
+  return decode;
+}
+
+class EveryMethod : public testing::TestWithParam<Method> {
+ protected:
+  const GeometryMethod& method() const { return *findGeometryMethod(GetParam()); }
+};
+
+TEST_P(EveryMethod, RestoresEveryPointInTheOrderItReports) {
+  for (const test::NamedPoints& set : test::degenerateSets()) {
+    for (const unsigned layers : {1U, 2U, 5U, 32U}) {
+      SCOPED_TRACE(set.name + ", layers: " + std::to_string(layers));
+      const TileInput tile = tileOf(set.points, layers);
+      const EncodedTile coded = method().encode(tile, {});
+      ASSERT_EQ(coded.layers.size(), layers);
+      ASSERT_EQ(coded.coarse.size(), layers - 1);
+      const DecodedTile decoded = method().decode(toDecode(tile, coded, layers), {});
+      ASSERT_EQ(decoded.points.size(), set.points.size());
+      ASSERT_EQ(coded.order.size(), set.points.size());
+      std::vector<bool> seen(set.points.size(), false);
+      for (std::size_t j = 0; j < decoded.points.size(); ++j) {
+        ASSERT_FALSE(seen[coded.order[j]]);
+        seen[coded.order[j]] = true;
+        GridPoint p = set.points[coded.order[j]];
+        for (std::size_t k = 0; k < 3; ++k) p[k] -= tile.lower[k];
+        ASSERT_EQ(decoded.points[j], p);
+      }
+    }
+  }
+}
+
+/// Every layer's representatives against the cells that the points are said to lie in.
+void checkLayer(const GeometryMethod& method, const TileInput& tile, const EncodedTile& coded,
+                unsigned layer) {
+  TileToDecode coarse = toDecode(tile, coded, layer + 1);
+  coarse.wantCounts = true;
+  coarse.cellLevel = layer;
+  const DecodedTile cells = method.decode(coarse, {});
+  ASSERT_EQ(cells.points.size(), coded.coarse[layer].representatives);
+  TileToDecode whole = toDecode(tile, coded, tile.layers);
+  whole.cellLevel = layer;
+  const DecodedTile all = method.decode(whole, {});
+  std::map<std::uint64_t, std::size_t> representativeOf;
+  for (std::size_t i = 0; i < cells.points.size(); ++i) {
+    ASSERT_TRUE(representativeOf.emplace(cells.cellIds[i], i).second) << "a cell id came twice";
+  }
+  std::vector<std::uint64_t> members(cells.points.size(), 0);
+  for (std::size_t j = 0; j < all.points.size(); ++j) {
+    const auto found = representativeOf.find(all.cellIds[j]);
+    ASSERT_NE(found, representativeOf.end());
+    ++members[found->second];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = all.points[j][k];
+      const std::uint32_t b = cells.points[found->second][k];
+      ASSERT_LE(a > b ? a - b : b - a, coded.coarse[layer].spread);
+      ASSERT_LE(b, tile.extent[k]);
+    }
+  }
+  ASSERT_EQ(members, cells.counts);
+}
+
+TEST_P(EveryMethod, LayersStandForTheirPointsWithinTheirSpread) {
+  for (const test::NamedPoints& set : test::degenerateSets()) {
+    const TileInput tile = tileOf(set.points, 4);
+    const EncodedTile coded = method().encode(tile, {});
+    for (unsigned layer = 0; layer < 3; ++layer) {
+      SCOPED_TRACE(set.name + ", layer " + std::to_string(layer));
+      checkLayer(method(), tile, coded, layer);
+    }
+  }
+}
+
+TEST_P(EveryMethod, StaysWithinItsLimits) {
+  const std::vector<GridPoint> points(100000, GridPoint{1, 2, 3});
+  const TileInput tile = tileOf(points, 1);
+  const EncodedTile coded = method().encode(tile, {});
+  TileToDecode decode = toDecode(tile, coded, 1);
+  decode.maxPoints = 99999;
+  EXPECT_THROW(method().decode(decode, {}), Error);
+  decode.maxPoints = 100000;
+  EXPECT_NO_THROW(method().decode(decode, {}));
+  decode.maxBytes = 100000;
+  EXPECT_THROW(method().decode(decode, {}), Error);
+}
+
+TEST_P(EveryMethod, NeverAllocatesOnTheWordOfTheFile) {
+  // A claim of four thousand million points in no bytes at all meets the limit of memory.
+  TileToDecode decode;
+  decode.points = std::numeric_limits<std::uint32_t>::max();
+  decode.extent = {1000, 1000, 1000};
+  decode.payloads.emplace_back();
+  decode.maxPoints = decode.points;
+  decode.maxBytes = 1 << 20;
+  decode.maxDepth = 512;
+  EXPECT_THROW(method().decode(decode, {}), Error);
+}
+
+TEST_P(EveryMethod, SurvivesDamagedStreams) {
+  const std::vector<GridPoint> points = test::scannedSphere(11, 600, 1023);
+  const TileInput tile = tileOf(points, 3);
+  const EncodedTile coded = method().encode(tile, {});
+  std::mt19937_64 random(12);
+  unsigned refused = 0;
+  constexpr unsigned kTrials = 3000;
+  for (unsigned trial = 0; trial < kTrials; ++trial) {
+    std::vector<Bytes> layers = coded.layers;
+    for (std::uint64_t flips = 1 + random() % 4; flips > 0; --flips) {
+      Bytes& layer = layers[random() % layers.size()];
+      if (layer.empty()) continue;
+      layer[random() % layer.size()] ^= static_cast<std::uint8_t>(1U << (random() % 8));
+      if (random() % 4 == 0) layer.resize(random() % (layer.size() + 1));
+    }
+    TileToDecode decode = toDecode(tile, coded, 3);
+    decode.payloads.assign(layers.begin(), layers.end());
+    if (random() % 4 == 0) decode.points = 1 + random() % 5000;
+    if (random() % 4 == 0) decode.extent[random() % 3] = static_cast<std::uint32_t>(random());
+    decode.maxPoints = 10000;
+    decode.maxBytes = 1 << 22;
+    try {
+      const DecodedTile decoded = method().decode(decode, {});
+      for (const GridPoint& p : decoded.points) {
+        for (std::size_t k = 0; k < 3; ++k) ASSERT_LE(p[k], decode.extent[k]);
+      }
+    } catch (const Error&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, kTrials / 2) << "damage is hardly ever noticed";
+}
+
+INSTANTIATE_TEST_SUITE_P(Geometry, EveryMethod, testing::ValuesIn(availableMethods()),
+                         [](const auto& method) { return methodName(method.param); });
+
+}  // namespace
+}  // namespace bspc::geometry

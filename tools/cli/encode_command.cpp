@@ -1,0 +1,165 @@
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "bspc/decoder.h"
+#include "bspc/encoder.h"
+#include "bspc/error.h"
+#include "cli/commands.h"
+#include "cli/input_file.h"
+#include "cli/model_files.h"
+#include "cli/output_file.h"
+#include "cli/progress_bar.h"
+#include "cli/text.h"
+#include "cli/usage_error.h"
+
+namespace bspc::cli {
+
+namespace {
+
+struct EncodeArguments {
+  std::string input;
+  std::string output;
+  std::string from;
+  std::string method;
+  std::string grid = "auto";
+  std::string layout;
+  unsigned bits = 0;
+  double precision = 0;
+  unsigned layers = 0;
+  bool positionsOnly = false;
+  bool dropNonFinite = false;
+  bool force = false;
+  bool quiet = false;
+};
+
+GridRequest gridRequest(const EncodeArguments& args) {
+  const int wishes =
+      (args.bits != 0 ? 1 : 0) + (args.precision != 0 ? 1 : 0) + (args.grid != "auto" ? 1 : 0);
+  if (wishes > 1) throw UsageError("--bits, --precision and --grid exclude each other");
+  GridRequest request;
+  if (args.bits != 0) {
+    request = GridRequest::withBits(args.bits);
+  } else if (args.precision != 0) {
+    request = GridRequest::withPrecision(args.precision);
+  } else if (args.grid != "auto") {
+    InputFile file(args.grid);
+    request = GridRequest::onGrid(Decoder(file.source()).info().grid);
+  }
+  request.dropNonFinite = args.dropNonFinite;
+  return request;
+}
+
+EncodeOptions encodeOptions(const EncodeArguments& args) {
+  EncodeOptions options;
+  options.grid = gridRequest(args);
+  options.layers = args.layers;
+  if (!args.method.empty()) options.method = methodFromName(args.method);
+  // To a pipe the index goes last, so that a reader of the pipe sees tiles as they come.
+  const std::string layout =
+      !args.layout.empty() ? args.layout : (args.output == "-" ? "streaming" : "progressive");
+  options.layout = layout == "streaming" ? Layout::Streaming : Layout::Progressive;
+  return options;
+}
+
+void printReport(const EncodeArguments& args, const EncodeReport& report) {
+  const auto bits = 8.0 * static_cast<double>(report.fileBytes);
+  std::cerr << args.output << ": " << withCommas(report.points) << " points in "
+            << withCommas(report.fileBytes) << " bytes";
+  if (report.points > 0) {
+    std::cerr << ", " << fixed(bits / static_cast<double>(report.points), 3) << " bits per point";
+  }
+  std::error_code error;
+  const std::uintmax_t inputBytes =
+      args.input == "-" ? 0 : std::filesystem::file_size(args.input, error);
+  if (inputBytes > 0 && !error) {
+    std::cerr << ", 1/"
+              << fixed(static_cast<double>(inputBytes) / static_cast<double>(report.fileBytes), 2)
+              << " of " << args.input;
+  }
+  std::cerr << "; " << errorText(report.exact, report.maxError) << "; " << methodName(report.method)
+            << ", " << gridText(report.grid);
+  if (report.dropped > 0) {
+    std::cerr << "; " << withCommas(report.dropped) << " non-finite points left out";
+  }
+  std::cerr << '\n';
+}
+
+void runEncode(const EncodeArguments& args) {
+  EncodeOptions options = encodeOptions(args);
+  OutputFile output(args.output, args.force);
+  const formats::Model model = readModelFile(args.input, args.from, args.positionsOnly);
+  StreamSink sink(output.stream());
+  EncodeReport report;
+  {
+    ProgressBar bar("encoding", args.quiet);
+    options.progress = bar.callback();
+    report = encode(model.view(), sink, options);
+    output.commit();
+  }
+  if (!args.quiet) printReport(args, report);
+}
+
+std::string knownMethods() {
+  std::string names;
+  for (const Method method : availableMethods()) {
+    names += (names.empty() ? "" : ", ") + std::string(methodName(method));
+  }
+  return names;
+}
+
+}  // namespace
+
+void addEncodeCommand(CLI::App& app) {
+  auto args = std::make_shared<EncodeArguments>();
+  CLI::App* command = app.add_subcommand("encode", "Compress a model's points to a .bspc file");
+  command->add_option("input", args->input, "Model: PLY, OBJ, OFF, XYZ or CSV; - reads a pipe")
+      ->required();
+  command->add_option("output", args->output, "The .bspc file; - writes to a pipe")->required();
+  const auto methods = [](const std::string& name) {
+    return methodFromName(name) ? std::string()
+                                : "there is no such method; known: " + knownMethods();
+  };
+  command->add_option("--method", args->method, "How to code positions: " + knownMethods())
+      ->check(methods)
+      ->group("Coding");
+  command->add_option("--layers", args->layers, "Layers of detail, 1 to 32 (default: by size)")
+      ->check(CLI::Range(1U, kMaxLayers))
+      ->group("Coding");
+  command
+      ->add_option("--layout", args->layout,
+                   "progressive (index in front, the default) or streaming (at the end)")
+      ->check(CLI::IsMember({"progressive", "streaming"}))
+      ->group("Coding");
+  command
+      ->add_option("--bits", args->bits,
+                   "Quantise: the largest extent spans 2^BITS - 1 steps (1 to 32)")
+      ->check(CLI::Range(1U, 32U))
+      ->group("Grid");
+  command
+      ->add_option("--precision", args->precision,
+                   "Quantise: step in units of the data; the error is at most half of it")
+      ->check(CLI::PositiveNumber)
+      ->group("Grid");
+  command
+      ->add_option("--grid", args->grid,
+                   "auto: finds the lattice that the points lie on and keeps them exactly, else "
+                   "float precision; FILE.bspc: that file's grid, so that neighbours meet")
+      ->group("Grid");
+  command->add_flag("--drop-nonfinite", args->dropNonFinite,
+                    "Leave out points with NaN or infinite coordinates");
+  command->add_flag("--positions-only", args->positionsOnly,
+                    "Leave out faces and every property but the positions");
+  command->add_option("--from", args->from, "Format of the input where its name does not tell");
+  command->add_flag("-f,--force", args->force, "Replace an existing output file");
+  command->add_flag("-q,--quiet", args->quiet, "Print nothing but errors");
+  command->callback([args] { runEncode(*args); });
+  command->footer(
+      "Examples:\n"
+      "  bspc encode scan.ply scan.bspc                    as exact as the data are\n"
+      "  bspc encode scan.ply scan.bspc --precision 0.001  to the millimetre, if in metres\n"
+      "  bspc encode bunny.off bunny.bspc --bits 12 --positions-only\n"
+      "  cat scan.ply | bspc encode - - --from ply > scan.bspc");
+}
+
+}  // namespace bspc::cli

@@ -1,0 +1,40 @@
+#include "cli/input_file.h"
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <iostream>
+
+#include "bspc/error.h"
+
+namespace bspc::cli {
+
+InputFile::InputFile(const std::string& path)
+    : name_(path == "-" ? "standard input" : path), standardInput_(path == "-") {
+  if (standardInput_) return;
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) {
+    throw Error(ErrorCode::Io, path + ": is a folder, not a file");
+  }
+  errno = 0;
+  file_.open(path, std::ios::binary);
+  if (!file_) {
+    const std::string reason = errno != 0 ? std::strerror(errno) : "unknown reason";
+    throw Error(ErrorCode::Io, path + ": cannot be opened (" + reason + ")");
+  }
+}
+
+std::istream& InputFile::stream() { return standardInput_ ? std::cin : file_; }
+
+std::shared_ptr<ByteSource> InputFile::source() {
+  if (!standardInput_) return std::make_shared<StreamSource>(file_);
+  std::array<char, 1U << 16> piece{};
+  while (std::cin.read(piece.data(), piece.size()) || std::cin.gcount() > 0) {
+    const auto* data = reinterpret_cast<const std::uint8_t*>(piece.data());
+    buffer_.insert(buffer_.end(), data, data + std::cin.gcount());
+  }
+  return std::make_shared<MemorySource>(buffer_);
+}
+
+}  // namespace bspc::cli

@@ -1,0 +1,51 @@
+#include "cli/model_files.h"
+
+#include <optional>
+
+#include "bspc/error.h"
+#include "cli/input_file.h"
+#include "cli/usage_error.h"
+
+namespace bspc::cli {
+
+formats::Format chooseFormat(const std::string& name, const std::string& path,
+                             const std::string& option) {
+  const std::string spelling = name.empty() ? path : "." + name;
+  const std::optional<formats::Format> format = formats::formatFromPath(spelling);
+  if (format) return *format;
+  throw UsageError(path + ": cannot tell the format from the name; say it with " + option +
+                   " ply, obj, off, xyz or csv");
+}
+
+namespace {
+
+void refuseOtherContent(const std::string& name, const std::vector<std::string>& content) {
+  std::string list;
+  constexpr std::size_t kNamed = 6;
+  for (std::size_t i = 0; i < content.size() && i < kNamed; ++i) {
+    list += (i > 0 ? ", " : "") + content[i];
+  }
+  if (content.size() > kNamed) list += ", …";
+  throw Error(ErrorCode::Unsupported,
+              name + ": has more than positions (" + list +
+                  "), which this version cannot store; use --positions-only to leave it out");
+}
+
+}  // namespace
+
+formats::Model readModelFile(const std::string& path, const std::string& formatName,
+                             bool positionsOnly) {
+  const formats::Format format = chooseFormat(formatName, path, "--from");
+  InputFile input(path);
+  try {
+    formats::Model model = formats::readModel(input.stream(), format);
+    if (!positionsOnly && !model.otherContent.empty()) {
+      refuseOtherContent(input.name(), model.otherContent);
+    }
+    return model;
+  } catch (const formats::FormatError& error) {
+    throw Error(ErrorCode::Io, input.name() + ": " + error.what());
+  }
+}
+
+}  // namespace bspc::cli

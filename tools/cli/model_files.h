@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "formats/model_io.h"
+
+namespace bspc::cli {
+
+/// The format that `name` spells ("ply", …), or that the ending of `path` says if `name` is empty.
+/// Throws UsageError if neither tells.
+formats::Format chooseFormat(const std::string& name, const std::string& path,
+                             const std::string& option);
+
+/// Reads a model file. What a .bspc file cannot hold yet is refused by Error(Unsupported), unless
+/// `positionsOnly` is the user's word that it may be left out. Messages name the file.
+formats::Model readModelFile(const std::string& path, const std::string& formatName,
+                             bool positionsOnly);
+
+}  // namespace bspc::cli

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <ostream>
+#include <string>
+
+namespace bspc::cli {
+
+/// A file that is there whole or not at all: it is written beside its place and renamed when it
+/// is finished. "-" is standard output; devices and pipes are written directly.
+class OutputFile {
+ public:
+  /// Throws Error(Io) if the file exists and `force` is false, or cannot be created.
+  OutputFile(const std::string& path, bool force);
+  /// Removes what was written unless commit() was reached.
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  std::ostream& stream();
+  /// Puts the file in its place. Throws Error(Io).
+  void commit();
+
+ private:
+  std::string path_;
+  std::filesystem::path temporary_;  ///< empty if the file is written directly
+  bool force_;
+  bool standardOutput_;
+  std::ofstream file_;
+};
+
+}  // namespace bspc::cli

@@ -1,0 +1,50 @@
+#include "cli/text.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdio>
+
+namespace bspc::cli {
+
+std::string withCommas(std::uint64_t value) {
+  std::string text = std::to_string(value);
+  for (std::size_t at = text.size(); at > 3;) {
+    at -= 3;
+    text.insert(at, ",");
+  }
+  return text;
+}
+
+std::string fixed(double value, int digits) {
+  std::array<char, 64> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%.*f", digits, value);
+  return buffer.data();
+}
+
+std::string shortest(double value) {
+  std::array<char, 64> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+  return {buffer.data(), end};
+}
+
+std::string errorText(bool exact, const std::array<double, 3>& maxError) {
+  if (exact) return "exact";
+  std::array<char, 64> buffer{};
+  const double greatest = *std::max_element(maxError.begin(), maxError.end());
+  std::snprintf(buffer.data(), buffer.size(), "greatest error %.3g", greatest);
+  return buffer.data();
+}
+
+std::string gridText(const Grid& grid) {
+  const bool shared = grid.step(0) == grid.step(1) && grid.step(0) == grid.step(2);
+  std::string text = "step " + shortest(grid.step(0));
+  if (!shared) text += ", " + shortest(grid.step(1)) + ", " + shortest(grid.step(2));
+  text += " from (";
+  for (int k = 0; k < 3; ++k) {
+    text += shortest(grid.coordinate(k, 0)) + (k < 2 ? ", " : ")");
+  }
+  return text + ", " + scalarName(grid.scalarType);
+}
+
+}  // namespace bspc::cli
