@@ -32,17 +32,20 @@ Bytes exampleBytes() {
 }
 
 TEST(FormatSpecification, ItsExampleIsARealFile) {
-  const std::vector<float> xyz{0.25F, 1.5F, -2.0F, 0.5F, 1.5F, -2.0F, 0.25F, 1.5F, -1.75F};
+  const std::vector<float> xyz{0.25F, 1.5F,  -2.0F,  1.0F,  1.5F, -2.0F,
+                               0.25F, 2.25F, -1.75F, 0.75F, 2.0F, -1.25F};
   EncodeOptions options;
   options.method = Method::Kd;
   const Bytes example = exampleBytes();
-  EXPECT_EQ(test::encoded(PointSetView(xyz.data(), 3), options), example);
+  EXPECT_EQ(test::encoded(PointSetView(xyz.data(), 4), options), example);
   Decoder decoder = test::open(example);
   const DecodedPoints decoded = decoder.decode();
-  std::vector<float> back(9);
-  ASSERT_EQ(decoded.points.size(), 3U);
+  const std::vector<GridPoint> wanted{{0, 0, 0}, {0, 3, 1}, {3, 0, 0}, {2, 2, 3}};
+  EXPECT_EQ(decoded.points, wanted);
+  std::vector<float> back(12);
   restorePositions(decoder.info().grid, Span<const GridPoint>(decoded.points), back.data());
-  const std::vector<float> inOrder{0.25F, 1.5F, -2.0F, 0.25F, 1.5F, -1.75F, 0.5F, 1.5F, -2.0F};
+  const std::vector<float> inOrder{0.25F, 1.5F, -2.0F, 0.25F, 2.25F, -1.75F,
+                                   1.0F,  1.5F, -2.0F, 0.75F, 2.0F,  -1.25F};
   EXPECT_EQ(back, inOrder);
 }
 

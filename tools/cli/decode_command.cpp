@@ -7,6 +7,7 @@
 #include "cli/commands.h"
 #include "cli/input_file.h"
 #include "cli/model_files.h"
+#include "cli/naming.h"
 #include "cli/output_file.h"
 #include "cli/progress_bar.h"
 #include "cli/restored_points.h"
@@ -55,7 +56,8 @@ void runDecode(const DecodeArguments& args) {
                                      : chooseFormat(args.to, args.output, "--to");
   InputFile input(args.input);
   OutputFile output(args.output, args.force);
-  Decoder decoder(input.source(), openOptions(args));
+  Decoder decoder =
+      naming(input.name(), [&] { return Decoder(input.source(), openOptions(args)); });
   DecodedPoints points;
   {
     ProgressBar bar("decoding", args.quiet);
@@ -65,7 +67,7 @@ void runDecode(const DecodeArguments& args) {
     options.cellLevel = args.colourLevel;
     options.wantCounts = args.counts;
     options.progress = bar.callback();
-    points = decoder.decode(options);
+    points = naming(input.name(), [&] { return decoder.decode(options); });
     const RestoredPoints restored(decoder.info().grid, points);
     try {
       formats::writeModel(output.stream(), format, restored.model());

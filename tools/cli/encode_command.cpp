@@ -8,6 +8,7 @@
 #include "cli/commands.h"
 #include "cli/input_file.h"
 #include "cli/model_files.h"
+#include "cli/naming.h"
 #include "cli/output_file.h"
 #include "cli/progress_bar.h"
 #include "cli/text.h"
@@ -44,7 +45,8 @@ GridRequest gridRequest(const EncodeArguments& args) {
     request = GridRequest::withPrecision(args.precision);
   } else if (args.grid != "auto") {
     InputFile file(args.grid);
-    request = GridRequest::onGrid(Decoder(file.source()).info().grid);
+    request = naming(file.name(),
+                     [&file] { return GridRequest::onGrid(Decoder(file.source()).info().grid); });
   }
   request.dropNonFinite = args.dropNonFinite;
   return request;
@@ -94,7 +96,7 @@ void runEncode(const EncodeArguments& args) {
   {
     ProgressBar bar("encoding", args.quiet);
     options.progress = bar.callback();
-    report = encode(model.view(), sink, options);
+    report = naming(args.input, [&] { return encode(model.view(), sink, options); });
     output.commit();
   }
   if (!args.quiet) printReport(args, report);

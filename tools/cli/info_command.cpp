@@ -6,6 +6,7 @@
 #include "bspc/decoder.h"
 #include "cli/commands.h"
 #include "cli/input_file.h"
+#include "cli/naming.h"
 #include "cli/text.h"
 
 namespace bspc::cli {
@@ -105,7 +106,7 @@ void runInfo(const InfoArguments& args) {
   InputFile input(args.input);
   OpenOptions options;
   options.allowPartial = args.partial;
-  const Decoder decoder(input.source(), options);
+  const Decoder decoder = naming(input.name(), [&] { return Decoder(input.source(), options); });
   if (args.json) {
     std::cout << toJson(decoder.info()).dump(2) << '\n';
   } else {

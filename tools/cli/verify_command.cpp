@@ -9,6 +9,7 @@
 #include "cli/commands.h"
 #include "cli/input_file.h"
 #include "cli/model_files.h"
+#include "cli/naming.h"
 #include "cli/progress_bar.h"
 #include "cli/text.h"
 
@@ -29,7 +30,7 @@ GridFit compare(const VerifyArguments& args, const FileInfo& info, std::vector<G
   const formats::Model original = readModelFile(args.against, args.from, true);
   GridRequest request = GridRequest::onGrid(info.grid);
   request.dropNonFinite = args.dropNonFinite;
-  GridFit fit = fitGrid(original.view(), request);
+  GridFit fit = naming(args.against, [&] { return fitGrid(original.view(), request); });
   // The fit counts from the original's own lowest coordinates.
   std::array<std::int64_t, 3> shift{};
   for (std::size_t k = 0; k < 3; ++k) shift[k] = fit.grid.axes[k].base - info.grid.axes[k].base;
@@ -60,13 +61,13 @@ GridFit compare(const VerifyArguments& args, const FileInfo& info, std::vector<G
 
 void runVerify(const VerifyArguments& args) {
   InputFile input(args.input);
-  Decoder decoder(input.source());
+  Decoder decoder = naming(input.name(), [&] { return Decoder(input.source()); });
   DecodedPoints decoded;
   {
     ProgressBar bar("verifying", args.quiet);
     DecodeOptions options;
     options.progress = bar.callback();
-    decoded = decoder.decode(options);
+    decoded = naming(input.name(), [&] { return decoder.decode(options); });
   }
   std::string result = "every checksum holds, " + withCommas(decoded.points.size()) + " points";
   if (!args.against.empty()) {

@@ -76,13 +76,13 @@ std::vector<StepInterval> AffineSearch::sampledSteps(std::size_t axis) const {
 std::optional<StepInterval> AffineSearch::narrowFromMinimum(std::size_t axis,
                                                             const StepInterval& sample) const {
   const double origin = ranges_[axis].min;
-  const double largest = ranges_[axis].maxAbs();
+  const double extent = ranges_[axis].extent();
   const double middle = sample.middle();
   StepInterval interval = sample;
   const bool possible = coordinates_.all(axis, [&](double value) {
     const double distance = value - origin;
     const double multiple = nearestInteger(distance / middle);
-    const double noise = roundingNoise(type_, value, largest);
+    const double noise = roundingNoise(type_, value, extent);
     if (multiple == 0) return distance <= noise;
     if (interval.low * multiple < distance - noise) interval.low = (distance - noise) / multiple;
     if (interval.high * multiple > distance + noise) interval.high = (distance + noise) / multiple;
@@ -146,9 +146,8 @@ std::optional<Grid> AffineSearch::ownFromMinima(const Intervals& intervals) cons
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!intervals[axis]) continue;
     const std::vector<double> candidates = stepCandidates(*intervals[axis]);
-    const auto step =
-        std::find_if(candidates.begin(), candidates.end(),
-                     [&](double s) { return accepts(axis, ranges_[axis].min, s); });
+    const auto step = std::find_if(candidates.begin(), candidates.end(),
+                                   [&](double s) { return accepts(axis, ranges_[axis].min, s); });
     if (step == candidates.end()) return std::nullopt;
     set(grid, axis, ranges_[axis].min, *step);
     anyStep = *step;

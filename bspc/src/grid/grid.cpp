@@ -115,10 +115,10 @@ bool Grid::sameLattice(const Grid& other) const {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const Axis& a = axes[axis];
     const Axis& b = other.axes[axis];
-    const bool same = form == Form::Rational
-                          ? a.numerator == b.numerator && a.denominator == b.denominator
-                          : !(a.origin < b.origin || a.origin > b.origin || a.step < b.step ||
-                              a.step > b.step);
+    const bool same =
+        form == Form::Rational
+            ? a.numerator == b.numerator && a.denominator == b.denominator
+            : !(a.origin < b.origin || a.origin > b.origin || a.step < b.step || a.step > b.step);
     if (!same) return false;
   }
   return true;

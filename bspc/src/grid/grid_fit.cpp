@@ -1,10 +1,12 @@
 #include "grid/grid_fit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "bspc/error.h"
 #include "grid/axis_map.h"
@@ -34,27 +36,31 @@ bool anyNonFinite(const Coordinates::Chunk& chunk, std::size_t count) {
   return sum != 0;
 }
 
-/// What goes wrong with one chunk of points: marks those that are not finite.
+/// Marks the points of one chunk that are not finite.
 class FiniteMarks {
  public:
   using Marks = std::array<bool, Coordinates::kChunk>;
 
   FiniteMarks(const Coordinates& coordinates, std::uint64_t first, std::size_t count) {
-    bad_.fill(false);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       coordinates.gather(axis, first, count, chunk_.data());
       if (!anyNonFinite(chunk_, count)) continue;
+      any_ = true;
       for (std::size_t i = 0; i < count; ++i) bad_[i] = bad_[i] || !std::isfinite(chunk_[i]);
     }
   }
   bool bad(std::size_t i) const { return bad_[i]; }
   std::size_t count() const {
-    return static_cast<std::size_t>(std::count(bad_.begin(), bad_.end(), true));
+    return any_ ? static_cast<std::size_t>(std::count(bad_.begin(), bad_.end(), true)) : 0;
+  }
+  std::size_t firstBad() const {
+    return static_cast<std::size_t>(std::find(bad_.begin(), bad_.end(), true) - bad_.begin());
   }
 
  private:
-  Coordinates::Chunk chunk_{};
+  Coordinates::Chunk chunk_;
   Marks bad_{};
+  bool any_ = false;
 };
 
 [[noreturn]] void refuseNonFinite(const PointSetView& points, std::uint64_t index,
@@ -62,8 +68,7 @@ class FiniteMarks {
   const auto xyz = points.position(index);
   std::size_t axis = 0;
   while (std::isfinite(xyz[axis])) ++axis;
-  const std::string number =
-      std::isnan(xyz[axis]) ? "nan" : (xyz[axis] > 0 ? "inf" : "-inf");
+  const std::string number = std::isnan(xyz[axis]) ? "nan" : (xyz[axis] > 0 ? "inf" : "-inf");
   const std::string more =
       others == 0 ? "" : " (and " + std::to_string(others) + " more points are not finite)";
   throw Error(ErrorCode::NonFinite, "point " + std::to_string(index) + " has " + "xyz"[axis] +
@@ -83,10 +88,10 @@ double coarseEnough(double extent) {
   const double extent = range.max / 2 - range.min / 2;  // halved: the whole may overflow
   const double fitting = 2 * coarseEnough(extent);
   const std::string size = std::isfinite(2 * extent) ? text(2 * extent) : "2 * " + text(extent);
-  throw Error(ErrorCode::OutOfGrid,
-              std::string("the extent ") + size + " along " + "xyz"[axis] +
-                  " takes more than the 2^32 steps of " + text(step) +
-                  " that a grid has; use a precision of " + text(fitting, 3) + " or coarser");
+  throw Error(ErrorCode::OutOfGrid, std::string("the extent ") + size + " along " + "xyz"[axis] +
+                                        " takes more than the 2^32 steps of " + text(step) +
+                                        " that a grid has; use a precision of " + text(fitting, 3) +
+                                        " or coarser");
 }
 
 [[noreturn]] void refuseFarCoordinate(double value, std::size_t axis, double step) {
@@ -98,42 +103,37 @@ double coarseEnough(double extent) {
 
 }  // namespace
 
-void Progress::report(double share) const {
-  if (callback_ && !callback_(share)) {
+void Progress::report(double share) {
+  reported_ = std::max(reported_, share);
+  if (callback_ && !callback_(reported_)) {
     throw Error(ErrorCode::Cancelled,
                 "putting the points on a grid was cancelled by the caller; nothing was kept");
   }
 }
 
-std::vector<std::uint64_t> finitePoints(const PointSetView& points, bool drop) {
-  std::vector<std::uint64_t> kept;
-  if (!isFloatingPoint(points.type())) return kept;
+FinitePoints finitePoints(const PointSetView& points, bool drop) {
+  FinitePoints result;
+  if (!isFloatingPoint(points.type())) return result;
   const std::vector<std::uint64_t> none;
   const Coordinates all(points, none);
-  std::uint64_t bad = 0;
   std::uint64_t firstBad = 0;
   for (std::uint64_t first = 0; first < all.size(); first += Coordinates::kChunk) {
-    const std::size_t size = all.chunkSize(first);
-    const FiniteMarks marks(all, first, size);
+    const FiniteMarks marks(all, first, all.chunkSize(first));
     const std::size_t count = marks.count();
-    for (std::size_t i = 0; bad == 0 && count > 0; ++i) {
-      if (!marks.bad(i)) continue;
-      firstBad = first + i;
-      break;
-    }
-    bad += count;
+    if (result.dropped == 0 && count > 0) firstBad = first + marks.firstBad();
+    result.dropped += count;
   }
-  if (bad == 0) return kept;
-  if (!drop) refuseNonFinite(points, firstBad, bad - 1);
-  kept.reserve(static_cast<std::size_t>(all.size() - bad));
+  if (result.dropped == 0) return result;
+  if (!drop) refuseNonFinite(points, firstBad, result.dropped - 1);
+  result.kept.reserve(static_cast<std::size_t>(all.size() - result.dropped));
   for (std::uint64_t first = 0; first < all.size(); first += Coordinates::kChunk) {
     const std::size_t size = all.chunkSize(first);
     const FiniteMarks marks(all, first, size);
     for (std::size_t i = 0; i < size; ++i) {
-      if (!marks.bad(i)) kept.push_back(first + i);
+      if (!marks.bad(i)) result.kept.push_back(first + i);
     }
   }
-  return kept;
+  return result;
 }
 
 Ranges rangesOf(const Coordinates& coordinates) {
@@ -167,7 +167,7 @@ void placeBases(Grid& grid, const Ranges& ranges) {
 }
 
 void quantise(const Coordinates& coordinates, const Ranges& ranges, GridFit& fit,
-              const Progress& progress) {
+              Progress& progress) {
   constexpr std::uint64_t kReportEvery = 128 * Coordinates::kChunk;
   const std::array<AxisMap, 3> maps{AxisMap(fit.grid, 0), AxisMap(fit.grid, 1),
                                     AxisMap(fit.grid, 2)};
@@ -261,15 +261,32 @@ bool needsDoubles(const GridFit& fit, const GridRequest& request) {
 }  // namespace lattice
 
 GridFit fitGrid(const PointSetView& points, const GridRequest& request,
-                const ProgressCallback& callback) {
-  using namespace lattice;
+                const ProgressCallback& progress) {
   lattice::validate(request);
-  const Progress progress(callback);
-  progress.report(0);
+  lattice::Progress stages(progress);
+  stages.report(0);
+  lattice::requireIntegersInDoubles(points);
+  lattice::FinitePoints finite = lattice::finitePoints(points, request.dropNonFinite);
   GridFit fit;
-  requireIntegersInDoubles(points);
-  fit.sourceIndex = finitePoints(points, request.dropNonFinite);
-  // All points dropped leaves an empty list as well, which must not read as "none dropped".
+  fit.sourceIndex = std::move(finite.kept);
+  fit.dropped = finite.dropped;
+  if (fit.dropped == points.size()) {
+    fit.grid = lattice::emptyGrid(points.type(), request);
+    stages.report(1);
+    return fit;
+  }
+  const lattice::Coordinates coordinates(points, fit.sourceIndex);
+  const lattice::Ranges ranges = lattice::rangesOf(coordinates);
+  stages.report(lattice::kScanned);
+  fit.grid = lattice::chooseGrid(coordinates, ranges, request);
+  lattice::placeBases(fit.grid, ranges);
+  lattice::quantise(coordinates, ranges, fit, stages);
+  if (lattice::needsDoubles(fit, request)) {
+    fit.grid.scalarType = ScalarType::Float64;
+    lattice::placeBases(fit.grid, ranges);
+    lattice::quantise(coordinates, ranges, fit, stages);
+  }
+  stages.report(1);
   return fit;
 }
 

@@ -1,7 +1,9 @@
 #include "grid/lattice.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "grid/affine_lattice.h"

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
+#include <optional>
 
 #include "grid/lattice.h"
 
@@ -100,7 +101,7 @@ double rounded(double value, int digits) {
 
 double roundingNoise(ScalarType type, double value, double largest) {
   const double rounding = std::ldexp(1, spacingExponent(ScalarType::Float64, largest));
-  return std::ldexp(1, spacingExponent(type, value)) / 2 + rounding;
+  return (std::ldexp(1, spacingExponent(type, value)) + rounding) / 2;
 }
 
 std::vector<StepInterval> stepsOfSample(const std::vector<double>& values, double noise,

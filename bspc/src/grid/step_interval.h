@@ -18,7 +18,7 @@ struct StepInterval {
 };
 
 /// How far a coordinate may be from its lattice point: half the spacing of its type at `value`,
-/// and the rounding of the double computation, whose terms are at most `largest`.
+/// and the rounding of the multiple of the step in double, which is at most `largest`.
 double roundingNoise(ScalarType type, double value, double largest);
 
 /// Steps, coarsest first, at least `finest`, for which the differences of the values (sorted,
