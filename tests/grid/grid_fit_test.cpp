@@ -136,7 +136,6 @@ TEST(FitBitsOn, DenormalsAndGiants) {
 }
 
 TEST(FitPrecision, ErrorsAreAtMostHalf) {
-  std::mt19937_64 random(3);
   for (const double precision : {1e-6, 0.001, 0.025, 1.0 / 3, 0.1, 1.0, 5.0, 2.5, 1234.5}) {
     for (std::uint64_t seed = 1; seed < 4; ++seed) {
       const auto xyz = randomReals<double>(2000, -1000, 2000, seed);

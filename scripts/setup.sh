@@ -1,0 +1,124 @@
+#!/usr/bin/env bash
+# Installs the Debian 12 packages that building and testing bspc needs.
+set -euo pipefail
+
+build_packages=(
+  cmake ninja-build g++ python3 libc6-dev
+  libxxhash-dev libcli11-dev nlohmann-json3-dev
+  libgtest-dev libbenchmark-dev
+)
+lint_packages=(clang-format clang-tidy)
+compiler_packages=(clang)
+
+usage() {
+  cat <<'END'
+Usage: scripts/setup.sh [--lint] [--compilers] [--for-download PACKAGE]
+
+Installs the Debian 12 packages that building and testing bspc needs; does nothing where they are
+installed. Needs root or sudo only if something is missing.
+
+  --lint                  also clang-format and clang-tidy, for scripts/lint.sh
+  --compilers             also clang, for scripts/compilers.sh
+  --for-download PACKAGE  also make sure that apt-get knows PACKAGE, without installing it
+END
+}
+
+die() {
+  echo "setup: $*" >&2
+  exit 1
+}
+
+wanted=("${build_packages[@]}")
+to_download=
+while (($# > 0)); do
+  case $1 in
+    --lint) wanted+=("${lint_packages[@]}") ;;
+    --compilers) wanted+=("${compiler_packages[@]}") ;;
+    --for-download)
+      (($# > 1)) || die "--for-download needs the name of a package"
+      to_download=$2
+      shift
+      ;;
+    -h | --help)
+      usage
+      exit 0
+      ;;
+    *)
+      usage >&2
+      exit 2
+      ;;
+  esac
+  shift
+done
+
+installed() {
+  [[ $(dpkg-query --show --showformat='${db:Status-Status}' "$1" 2>/dev/null) == installed ]]
+}
+
+# A package is known if apt-get could fetch it now.
+known() {
+  [[ -n $(apt-cache madison "$1" 2>/dev/null) ]]
+}
+
+missing=()
+if command -v dpkg-query >/dev/null; then
+  for package in "${wanted[@]}"; do
+    installed "$package" || missing+=("$package")
+  done
+else
+  missing=("${wanted[@]}")
+fi
+
+if ((${#missing[@]} == 0)); then
+  echo "setup: all ${#wanted[@]} packages are installed"
+  [[ -n $to_download ]] || exit 0
+fi
+
+command -v apt-get >/dev/null ||
+  die "apt-get is missing: this script knows Debian and its relatives only." \
+    "Install what these packages hold by other means: ${wanted[*]}"
+
+as_root=()
+need_root() {
+  if ((EUID == 0)); then return; fi
+  command -v sudo >/dev/null ||
+    die "missing packages: ${missing[*]:-none}; run this script as root, or install sudo"
+  as_root=(sudo)
+}
+
+# Environment variables do not pass through sudo unless env sets them behind it.
+apt() {
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -y -q "$@"
+}
+
+refreshed=no
+refresh_lists() {
+  [[ $refreshed == no ]] || return 0
+  echo "setup: fetching the package lists"
+  need_root
+  apt update
+  refreshed=yes
+}
+
+install_missing() {
+  apt install --no-install-recommends "${missing[@]}"
+}
+
+if ((${#missing[@]} > 0)); then
+  need_root
+  for package in "${missing[@]}"; do
+    known "$package" || refresh_lists
+  done
+  echo "setup: installing ${missing[*]}"
+  if ! install_missing; then
+    # Lists that are older than the archive name files that are gone.
+    [[ $refreshed == no ]] || die "apt-get could not install: ${missing[*]}"
+    refresh_lists
+    install_missing || die "apt-get could not install: ${missing[*]}"
+  fi
+fi
+
+if [[ -n $to_download ]]; then
+  known "$to_download" || refresh_lists
+  known "$to_download" || die "apt-get does not know the package $to_download"
+fi

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <istream>
+#include <vector>
+
+namespace bspc::formats {
+
+/// Reads a stream in large blocks and shows them as contiguous memory, which grows only as bytes
+/// arrive. The stream need not be seekable. Throws FormatError if the stream fails.
+class InputBuffer {
+ public:
+  explicit InputBuffer(std::istream& in);
+
+  const char* data() const { return buffer_.data() + begin_; }
+  std::size_t available() const { return end_ - begin_; }
+  /// Bytes consumed since the start.
+  std::uint64_t offset() const { return offset_; }
+
+  /// Reads more behind what is available; false at the end of the stream. Moves data().
+  bool fill();
+  /// Whether `count` bytes are available, after reading as much as that takes.
+  bool ensure(std::size_t count) {
+    while (available() < count) {
+      if (!fill()) return false;
+    }
+    return true;
+  }
+  /// The caller keeps `count` within available().
+  void consume(std::size_t count) {
+    begin_ += count;
+    offset_ += count;
+  }
+
+  /// Copies up to `count` bytes to `to`; fewer only at the end of the stream.
+  std::size_t read(std::uint8_t* to, std::size_t count);
+  /// Passes over up to `count` bytes; fewer only at the end of the stream.
+  std::uint64_t skip(std::uint64_t count);
+
+  /// How many items of at least `bytes` each there is memory to be set aside for, if a header
+  /// claims `claimed` of them: never more than the stream can hold, 0 if that is not known.
+  std::size_t reservable(std::uint64_t claimed, std::size_t bytes) const;
+
+ private:
+  std::size_t readStream(char* to, std::size_t count);
+
+  std::istream& in_;
+  std::vector<char> buffer_;
+  std::size_t begin_ = 0;
+  std::size_t end_ = 0;
+  std::uint64_t offset_ = 0;
+  std::uint64_t streamBytes_ = 0;
+};
+
+}  // namespace bspc::formats

@@ -1,0 +1,92 @@
+#include "formats/model_io.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+
+#include "formats/input_buffer.h"
+#include "formats/obj_reader.h"
+#include "formats/obj_writer.h"
+#include "formats/off_reader.h"
+#include "formats/off_writer.h"
+#include "formats/output_buffer.h"
+#include "formats/ply_reader.h"
+#include "formats/ply_writer.h"
+#include "formats/wording.h"
+#include "formats/xyz_reader.h"
+#include "formats/xyz_writer.h"
+
+namespace bspc::formats {
+
+namespace {
+
+void requireWholeColumns(const ModelView& model) {
+  for (const PointColumn& column : model.columns) {
+    if (column.values.size() == model.points.size()) continue;
+    throw FormatError("column " + quoted(column.name) + " has " + grouped(column.values.size()) +
+                      " values for " + grouped(model.points.size()) + " points");
+  }
+}
+
+}  // namespace
+
+std::optional<Format> formatFromPath(std::string_view path) {
+  constexpr std::array<std::pair<std::string_view, Format>, 7> kEndings{{
+      {"ply", Format::Ply},
+      {"obj", Format::Obj},
+      {"off", Format::Off},
+      {"xyz", Format::Xyz},
+      {"txt", Format::Xyz},
+      {"asc", Format::Xyz},
+      {"csv", Format::Csv},
+  }};
+  const std::size_t dot = path.rfind('.');
+  if (dot == std::string_view::npos) return std::nullopt;
+  const std::string ending = lowerCase(path.substr(dot + 1));
+  const auto* const found = std::find_if(kEndings.begin(), kEndings.end(),
+                                         [&](const auto& entry) { return entry.first == ending; });
+  if (found == kEndings.end()) return std::nullopt;
+  return found->second;
+}
+
+Model readModel(std::istream& in, Format format) {
+  InputBuffer input(in);
+  switch (format) {
+    case Format::Ply:
+      return readPly(input);
+    case Format::Obj:
+      return readObj(input);
+    case Format::Off:
+      return readOff(input);
+    case Format::Xyz:
+    case Format::Csv:
+      return readXyz(input);
+  }
+  throw FormatError("there is no reader for this format");
+}
+
+void writeModel(std::ostream& out, Format format, const ModelView& model) {
+  requireWholeColumns(model);
+  OutputBuffer output(out);
+  switch (format) {
+    case Format::Ply:
+      writePly(output, model);
+      break;
+    case Format::Obj:
+      writeObj(output, model);
+      break;
+    case Format::Off:
+      writeOff(output, model);
+      break;
+    case Format::Xyz:
+      writeXyz(output, model);
+      break;
+    case Format::Csv:
+      writeCsv(output, model);
+      break;
+  }
+  output.finish();
+}
+
+}  // namespace bspc::formats

@@ -1,0 +1,116 @@
+#include <cstring>
+#include <string>
+
+#include "formats/ply_body.h"
+#include "formats/scalar_convert.h"
+#include "formats/scalar_visit.h"
+#include "formats/wording.h"
+
+namespace bspc::formats {
+
+namespace {
+
+/// Tokens are read without regard to line ends: elements that some writer wrapped are read, and a
+/// number too many or too few shows at the end of the data.
+class AsciiBody {
+ public:
+  AsciiBody(TextScanner& text, const PlyHeader& header, std::vector<std::uint8_t>& positions)
+      : text_(text), header_(header), positions_(positions), axes_(plyAxes(header)) {}
+
+  void read() {
+    for (std::size_t e = 0; e < header_.elements.size(); ++e) {
+      element_ = &header_.elements[e];
+      // Without properties there is nothing to read, however many elements are claimed.
+      if (element_->properties.empty()) continue;
+      const bool isVertex = e == header_.vertexElement;
+      for (index_ = 0; index_ < element_->count; ++index_) {
+        if (isVertex) {
+          readVertex();
+        } else {
+          for (const PlyProperty& property : element_->properties) skipProperty(property);
+        }
+      }
+    }
+    std::string_view token;
+    if (text_.nextTokenOfAnyLine(token)) {
+      text_.fail("trailing data after the last element: " + quoted(token));
+    }
+  }
+
+ private:
+  void readVertex() {
+    const std::size_t size = scalarSize(header_.positionType);
+    std::array<std::uint8_t, 24> point{};
+    for (std::size_t p = 0; p < element_->properties.size(); ++p) {
+      const PlyProperty& property = element_->properties[p];
+      if (axes_[p] < 3) {
+        readCoordinate(property, point.data() + axes_[p] * size);
+      } else {
+        skipProperty(property);
+      }
+    }
+    positions_.insert(positions_.end(), point.data(), point.data() + 3 * size);
+  }
+
+  void readCoordinate(const PlyProperty& property, std::uint8_t* to) {
+    std::uint64_t bytes = 0;
+    readNumber(property.type, property, &bytes);
+    if (property.type == header_.positionType) {
+      std::memcpy(to, &bytes, scalarSize(property.type));
+      return;
+    }
+    const ScalarSource source{&bytes, property.type, 0, false};
+    if (convertScalars(source, {to, header_.positionType, 0}, 1) == 0) {
+      text_.fail("the number for " + describe(property) + " is not exact as a float64, the type " +
+                 "that x, y and z have in common");
+    }
+  }
+
+  void skipProperty(const PlyProperty& property) {
+    std::uint64_t bytes = 0;
+    if (!property.isList) return readNumber(property.type, property, &bytes);
+    readNumber(property.countType, property, &bytes);
+    std::uint64_t count = 0;
+    visitScalar(property.countType, [&](auto zero) {
+      const auto value = loadScalar<decltype(zero)>(&bytes);
+      if (value < zero) text_.fail("a negative number of items for " + describe(property));
+      count = static_cast<std::uint64_t>(value);
+    });
+    for (std::uint64_t i = 0; i < count; ++i) readNumber(property.type, property, &bytes);
+  }
+
+  /// Stores the next number as `type` at `to`, which takes eight bytes.
+  void readNumber(ScalarType type, const PlyProperty& property, std::uint64_t* to) {
+    std::string_view token;
+    if (!text_.nextTokenOfAnyLine(token)) {
+      text_.failAtEnd("the file ends inside " + plyPlace(*element_, index_));
+    }
+    visitScalar(type, [&](auto value) {
+      const NumberStatus status = parseNumber(token, value);
+      if (status != NumberStatus::Ok) {
+        text_.failNumber(status, token, !isFloatingPoint(type), describe(property));
+      }
+      std::memcpy(to, &value, sizeof(value));
+    });
+  }
+
+  static std::string describe(const PlyProperty& property) {
+    return "property " + quoted(property.name) + " (" + scalarName(property.type) + ")";
+  }
+
+  TextScanner& text_;
+  const PlyHeader& header_;
+  std::vector<std::uint8_t>& positions_;
+  std::vector<std::size_t> axes_;
+  const PlyElement* element_ = nullptr;
+  std::uint64_t index_ = 0;
+};
+
+}  // namespace
+
+void readAsciiPlyBody(TextScanner& text, const PlyHeader& header,
+                      std::vector<std::uint8_t>& positions) {
+  AsciiBody(text, header, positions).read();
+}
+
+}  // namespace bspc::formats

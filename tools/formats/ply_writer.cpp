@@ -1,0 +1,146 @@
+#include "formats/ply_writer.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "formats/scalar_convert.h"
+#include "formats/wording.h"
+
+namespace bspc::formats {
+
+namespace {
+
+const char* plyName(ScalarType type) {
+  switch (type) {
+    case ScalarType::Float32:
+      return "float";
+    case ScalarType::Float64:
+      return "double";
+    case ScalarType::Int8:
+      return "char";
+    case ScalarType::UInt8:
+      return "uchar";
+    case ScalarType::Int16:
+      return "short";
+    case ScalarType::UInt16:
+      return "ushort";
+    case ScalarType::Int32:
+      return "int";
+    case ScalarType::UInt32:
+      return "uint";
+    default:
+      throw FormatError(std::string("a PLY file has no type ") + scalarName(type));
+  }
+}
+
+/// One property of the file: where its numbers come from and as what they go out.
+struct Property {
+  std::string name;
+  ScalarSource source;
+  ScalarType type = ScalarType::Float32;
+  std::size_t offset = 0;
+};
+
+/// uint if all values fit, else double.
+ScalarType columnType(Span<const std::uint64_t> values) {
+  const bool small = std::all_of(values.begin(), values.end(),
+                                 [](std::uint64_t v) { return v <= UINT32_MAX; });
+  return small ? ScalarType::UInt32 : ScalarType::Float64;
+}
+
+std::vector<Property> listProperties(const ModelView& model) {
+  const PointSetView& points = model.points;
+  const bool wide = points.type() == ScalarType::Int64 || points.type() == ScalarType::UInt64;
+  std::vector<Property> properties;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto* data = static_cast<const std::uint8_t*>(points.data());
+    if (data != nullptr) data += k * scalarSize(points.type());
+    properties.push_back({std::string(1, "xyz"[k]),
+                          {data, points.type(), points.strideBytes(), false},
+                          wide ? ScalarType::Float64 : points.type(),
+                          0});
+  }
+  for (const PointColumn& column : model.columns) {
+    properties.push_back({column.name,
+                          {column.values.data(), ScalarType::UInt64, sizeof(std::uint64_t), false},
+                          columnType(column.values),
+                          0});
+  }
+  std::size_t offset = 0;
+  for (Property& property : properties) {
+    property.offset = offset;
+    offset += scalarSize(property.type);
+  }
+  return properties;
+}
+
+void writeHeader(std::string& text, std::uint64_t count, const std::vector<Property>& properties) {
+  text += "ply\nformat binary_little_endian 1.0\ncomment written by bspc\nelement vertex ";
+  text += std::to_string(count) + '\n';
+  for (const Property& p : properties) {
+    text += std::string("property ") + plyName(p.type) + ' ' + p.name + '\n';
+  }
+  text += "end_header\n";
+}
+
+/// The source from point `first` on.
+ScalarSource advanced(const ScalarSource& source, std::uint64_t first) {
+  ScalarSource moved = source;
+  moved.data = static_cast<const std::uint8_t*>(source.data) + first * source.stride;
+  return moved;
+}
+
+void swapRecords(std::vector<std::uint8_t>& block, std::size_t recordBytes, std::size_t count,
+                 const std::vector<Property>& properties) {
+  for (std::size_t i = 0; i < count; ++i) {
+    for (const Property& p : properties) {
+      std::uint8_t* at = block.data() + i * recordBytes + p.offset;
+      std::reverse(at, at + scalarSize(p.type));
+    }
+  }
+}
+
+void writeRecords(OutputBuffer& out, std::uint64_t count, const std::vector<Property>& properties) {
+  constexpr std::size_t kBlock = 4096;
+  const std::size_t recordBytes = properties.back().offset + scalarSize(properties.back().type);
+  std::vector<std::uint8_t> block(kBlock * recordBytes);
+  for (std::uint64_t first = 0; first < count; first += kBlock) {
+    const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(kBlock, count - first));
+    for (const Property& p : properties) {
+      const ScalarTarget target{block.data() + p.offset, p.type, recordBytes};
+      const std::size_t exact = convertScalars(advanced(p.source, first), target, size);
+      if (exact < size) {
+        throw FormatError(quoted(p.name) + " of point " + grouped(first + exact) +
+                          " is an integer that a PLY file cannot hold exactly");
+      }
+    }
+    if (!hostIsLittleEndian()) swapRecords(block, recordBytes, size, properties);
+    out.write(block.data(), size * recordBytes);
+  }
+}
+
+/// Whether the points in memory are the records of the file, byte for byte.
+bool isRecordImage(const ModelView& model, const std::vector<Property>& properties) {
+  return model.columns.empty() && hostIsLittleEndian() &&
+         properties[0].type == model.points.type() &&
+         model.points.strideBytes() == 3 * scalarSize(model.points.type());
+}
+
+}  // namespace
+
+void writePly(OutputBuffer& out, const ModelView& model) {
+  const std::vector<Property> properties = listProperties(model);
+  const std::uint64_t count = model.points.size();
+  writeHeader(out.text(), count, properties);
+  if (count == 0) return;
+  if (isRecordImage(model, properties)) {
+    out.write(model.points.data(), count * model.points.strideBytes());
+  } else {
+    writeRecords(out, count, properties);
+  }
+}
+
+}  // namespace bspc::formats
