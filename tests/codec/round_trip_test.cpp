@@ -72,7 +72,7 @@ TEST(RoundTrip, OrderSkipsDroppedPoints) {
   Decoder decoder = test::open(file);
   const DecodedPoints decoded = decoder.decode();
   ASSERT_EQ(decoded.points.size(), 257U);
-  std::vector<double> back(3 * 257);
+  std::vector<double> back(3 * decoded.points.size());
   restorePositions(decoder.info().grid, Span<const GridPoint>(decoded.points), back.data());
   for (std::size_t j = 0; j < 257; ++j) {
     for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(back[3 * j + k], xyz[3 * report.order[j] + k]);

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
+#include <cmath>
 #include <random>
 
 #include "bspc/error.h"
@@ -31,8 +31,9 @@ void expectSame(const Grid& grid) {
       EXPECT_EQ(a.numerator, b.numerator);
       EXPECT_EQ(a.denominator, b.denominator);
     } else {
-      EXPECT_EQ(std::memcmp(&a.origin, &b.origin, sizeof a.origin), 0);
-      EXPECT_EQ(std::memcmp(&a.step, &b.step, sizeof a.step), 0);
+      EXPECT_EQ(a.origin, b.origin);
+      EXPECT_EQ(std::signbit(a.origin), std::signbit(b.origin));
+      EXPECT_EQ(a.step, b.step);
     }
   }
 }

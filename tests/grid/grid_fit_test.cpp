@@ -1,7 +1,7 @@
 #include <cfloat>
 #include <limits>
 
-#include "grid_test_support.h"
+#include "grid/grid_test_support.h"
 
 namespace bspc::test {
 namespace {

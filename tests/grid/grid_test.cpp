@@ -3,7 +3,7 @@
 #include <cfloat>
 #include <limits>
 
-#include "grid_test_support.h"
+#include "grid/grid_test_support.h"
 
 namespace bspc::test {
 namespace {

@@ -1,6 +1,6 @@
 #include <cfloat>
 
-#include "grid_test_support.h"
+#include "grid/grid_test_support.h"
 
 namespace bspc::test {
 namespace {

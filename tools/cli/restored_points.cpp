@@ -20,25 +20,35 @@ RestoredPoints::RestoredPoints(const Grid& grid, const DecodedPoints& points)
     : points_(points), type_(grid.scalarType) {
   switch (type_) {
     case ScalarType::Float32:
-      return restoreInto<float>(coordinates_, grid, points.points);
+      restoreInto<float>(coordinates_, grid, points.points);
+      return;
     case ScalarType::Float64:
-      return restoreInto<double>(coordinates_, grid, points.points);
+      restoreInto<double>(coordinates_, grid, points.points);
+      return;
     case ScalarType::Int8:
-      return restoreInto<std::int8_t>(coordinates_, grid, points.points);
+      restoreInto<std::int8_t>(coordinates_, grid, points.points);
+      return;
     case ScalarType::UInt8:
-      return restoreInto<std::uint8_t>(coordinates_, grid, points.points);
+      restoreInto<std::uint8_t>(coordinates_, grid, points.points);
+      return;
     case ScalarType::Int16:
-      return restoreInto<std::int16_t>(coordinates_, grid, points.points);
+      restoreInto<std::int16_t>(coordinates_, grid, points.points);
+      return;
     case ScalarType::UInt16:
-      return restoreInto<std::uint16_t>(coordinates_, grid, points.points);
+      restoreInto<std::uint16_t>(coordinates_, grid, points.points);
+      return;
     case ScalarType::Int32:
-      return restoreInto<std::int32_t>(coordinates_, grid, points.points);
+      restoreInto<std::int32_t>(coordinates_, grid, points.points);
+      return;
     case ScalarType::UInt32:
-      return restoreInto<std::uint32_t>(coordinates_, grid, points.points);
+      restoreInto<std::uint32_t>(coordinates_, grid, points.points);
+      return;
     case ScalarType::Int64:
-      return restoreInto<std::int64_t>(coordinates_, grid, points.points);
+      restoreInto<std::int64_t>(coordinates_, grid, points.points);
+      return;
     case ScalarType::UInt64:
-      return restoreInto<std::uint64_t>(coordinates_, grid, points.points);
+      restoreInto<std::uint64_t>(coordinates_, grid, points.points);
+      return;
     case ScalarType::Bit:
     case ScalarType::String:
       break;

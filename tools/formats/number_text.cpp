@@ -14,8 +14,7 @@ bool spellsLessThanOne(std::string_view text) {
   if (end < text.size()) {
     std::string_view digits = text.substr(end + 1);
     if (!digits.empty() && digits.front() == '+') digits.remove_prefix(1);
-    const auto result =
-        std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
+    const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
     // An exponent beyond 64 bits outweighs any mantissa.
     if (result.ec == std::errc::result_out_of_range) return digits.front() == '-';
   }

@@ -7,8 +7,8 @@
 
 namespace bspc::formats {
 
-/// Collects output and hands it to a stream in large blocks. Throws FormatError if the stream fails;
-/// finish() must be called for the last block to be written.
+/// Collects output and hands it to a stream in large blocks. Throws FormatError if the stream
+/// fails; finish() must be called for the last block to be written.
 class OutputBuffer {
  public:
   explicit OutputBuffer(std::ostream& out) : out_(out) {}

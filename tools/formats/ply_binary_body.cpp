@@ -57,10 +57,10 @@ class BinaryBody {
   /// Whether the records are what the model wants, byte for byte.
   bool isPackedPositions() const {
     const auto& properties = element_->properties;
-    return !swapped_ && properties.size() == 3 && header_.xyz == std::array<std::size_t, 3>{0, 1, 2} &&
-           std::all_of(properties.begin(), properties.end(), [&](const PlyProperty& p) {
-             return p.type == header_.positionType;
-           });
+    return !swapped_ && properties.size() == 3 &&
+           header_.xyz == std::array<std::size_t, 3>{0, 1, 2} &&
+           std::all_of(properties.begin(), properties.end(),
+                       [&](const PlyProperty& p) { return p.type == header_.positionType; });
   }
 
   void readPacked(std::size_t pointBytes) {
@@ -140,8 +140,8 @@ class BinaryBody {
     require(countBytes, index);
     const std::uint64_t count = visitScalar(property.countType, [&](auto zero) {
       auto value = zero;
-      convertScalars({in_.data(), property.countType, 0, swapped_},
-                     {&value, property.countType, 0}, 1);
+      convertScalars({in_.data(), property.countType, 0, swapped_}, {&value, property.countType, 0},
+                     1);
       if (value < zero) {
         throw FormatError("property " + quoted(property.name) + " of " +
                           plyPlace(*element_, index) + " has a negative number of items (byte " +
@@ -161,7 +161,8 @@ class BinaryBody {
   void skipRecords() {
     const std::uint64_t bytes = element_->fixedBytes();
     if (bytes == 0 || element_->count == 0) return;
-    const std::uint64_t all = UINT64_MAX / bytes < element_->count ? UINT64_MAX : bytes * element_->count;
+    const std::uint64_t all =
+        UINT64_MAX / bytes < element_->count ? UINT64_MAX : bytes * element_->count;
     const std::uint64_t skipped = in_.skip(all);
     if (skipped < all) failShort(skipped / bytes);
   }

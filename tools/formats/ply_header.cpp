@@ -14,15 +14,24 @@ namespace {
 
 std::optional<ScalarType> typeFromName(std::string_view name) {
   constexpr std::array<std::pair<std::string_view, ScalarType>, 18> kTypes{{
-      {"char", ScalarType::Int8},      {"int8", ScalarType::Int8},
-      {"uchar", ScalarType::UInt8},    {"uint8", ScalarType::UInt8},
-      {"short", ScalarType::Int16},    {"int16", ScalarType::Int16},
-      {"ushort", ScalarType::UInt16},  {"uint16", ScalarType::UInt16},
-      {"int", ScalarType::Int32},      {"int32", ScalarType::Int32},
-      {"uint", ScalarType::UInt32},    {"uint32", ScalarType::UInt32},
-      {"float", ScalarType::Float32},  {"float32", ScalarType::Float32},
-      {"double", ScalarType::Float64}, {"float64", ScalarType::Float64},
-      {"int64", ScalarType::Int64},    {"uint64", ScalarType::UInt64},
+      {"char", ScalarType::Int8},
+      {"int8", ScalarType::Int8},
+      {"uchar", ScalarType::UInt8},
+      {"uint8", ScalarType::UInt8},
+      {"short", ScalarType::Int16},
+      {"int16", ScalarType::Int16},
+      {"ushort", ScalarType::UInt16},
+      {"uint16", ScalarType::UInt16},
+      {"int", ScalarType::Int32},
+      {"int32", ScalarType::Int32},
+      {"uint", ScalarType::UInt32},
+      {"uint32", ScalarType::UInt32},
+      {"float", ScalarType::Float32},
+      {"float32", ScalarType::Float32},
+      {"double", ScalarType::Float64},
+      {"float64", ScalarType::Float64},
+      {"int64", ScalarType::Int64},
+      {"uint64", ScalarType::UInt64},
   }};
   for (const auto& [known, type] : kTypes) {
     if (known == name) return type;
@@ -39,9 +48,7 @@ unsigned exactDigits(ScalarType type) {
   return static_cast<unsigned>(8 * scalarSize(type)) - (isSigned ? 1U : 0U);
 }
 
-bool isUnsigned(ScalarType type) {
-  return !isFloatingPoint(type) && exactDigits(type) % 8 == 0;
-}
+bool isUnsigned(ScalarType type) { return !isFloatingPoint(type) && exactDigits(type) % 8 == 0; }
 
 bool holds(ScalarType type, ScalarType other) {
   if (isFloatingPoint(other) && !isFloatingPoint(type)) return false;
@@ -52,8 +59,8 @@ bool holds(ScalarType type, ScalarType other) {
 /// The smallest type that holds all three exactly; Float64 where there is none.
 ScalarType commonType(const std::array<ScalarType, 3>& types) {
   constexpr std::array<ScalarType, 9> kBySize{
-      ScalarType::Int8,  ScalarType::UInt8,  ScalarType::Int16,
-      ScalarType::UInt16, ScalarType::Int32, ScalarType::UInt32,
+      ScalarType::Int8,    ScalarType::UInt8, ScalarType::Int16,
+      ScalarType::UInt16,  ScalarType::Int32, ScalarType::UInt32,
       ScalarType::Float32, ScalarType::Int64, ScalarType::UInt64};
   for (const ScalarType type : kBySize) {
     if (std::all_of(types.begin(), types.end(), [&](ScalarType t) { return holds(type, t); })) {
@@ -100,8 +107,10 @@ class HeaderReader {
     } else if (word == "property") {
       readProperty();
     } else if (word != "end_header") {
-      text_.fail("expected \"format\", \"element\", \"property\", \"comment\" or \"end_header\", "
-                 "found " + quoted(word));
+      text_.fail(
+          "expected \"format\", \"element\", \"property\", \"comment\" or \"end_header\", "
+          "found " +
+          quoted(word));
     }
     const bool more = word != "end_header";
     requireLineEnd();
@@ -143,9 +152,9 @@ class HeaderReader {
     for (const PlyElement& other : header_.elements) {
       if (other.name == element.name) text_.fail("a second element " + quoted(element.name));
     }
-    element.count = text_.number<std::uint64_t>(
-        expectWord("the number of elements"),
-        [&] { return "the number of elements " + quoted(element.name); });
+    element.count = text_.number<std::uint64_t>(expectWord("the number of elements"), [&] {
+      return "the number of elements " + quoted(element.name);
+    });
     header_.elements.push_back(std::move(element));
   }
 

@@ -46,8 +46,8 @@ struct Property {
 
 /// uint if all values fit, else double.
 ScalarType columnType(Span<const std::uint64_t> values) {
-  const bool small = std::all_of(values.begin(), values.end(),
-                                 [](std::uint64_t v) { return v <= UINT32_MAX; });
+  const bool small =
+      std::all_of(values.begin(), values.end(), [](std::uint64_t v) { return v <= UINT32_MAX; });
   return small ? ScalarType::UInt32 : ScalarType::Float64;
 }
 

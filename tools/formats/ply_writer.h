@@ -5,8 +5,8 @@
 
 namespace bspc::formats {
 
-/// Writes a PLY file, binary_little_endian, in the type of the positions; 64-bit integers, which PLY
-/// has not, as doubles. Throws FormatError for one that a double does not hold.
+/// Writes a PLY file, binary_little_endian, in the type of the positions; 64-bit integers, which
+/// PLY has not, as doubles. Throws FormatError for one that a double does not hold.
 void writePly(OutputBuffer& out, const ModelView& model);
 
 }  // namespace bspc::formats

@@ -20,8 +20,8 @@ bool TextScanner::nextLine() {
   for (;;) {
     const std::size_t available = in_.available();
     if (available > searched) {
-      end = static_cast<const char*>(
-          std::memchr(in_.data() + searched, '\n', available - searched));
+      end =
+          static_cast<const char*>(std::memchr(in_.data() + searched, '\n', available - searched));
     }
     searched = available;
     if (end != nullptr || !in_.fill()) break;

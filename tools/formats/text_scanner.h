@@ -37,6 +37,8 @@ class TextScanner {
   void rewindLine() { cursor_ = token_ = 0; }
   /// Forgets the line from `mark` on.
   void cutComment(char mark);
+  /// Whether the line ends in this character.
+  bool endsWith(char mark) const { return !line_.empty() && line_.back() == mark; }
 
   std::uint64_t lineNumber() const { return number_; }
   /// Throws FormatError with the place of the last token or field.

@@ -33,6 +33,7 @@ std::optional<Method> methodFromName(const std::string& name) {
 
 std::vector<Method> availableMethods() {
   std::vector<Method> methods;
+  methods.reserve(kMethods.size());
   for (const NamedMethod& m : kMethods) methods.push_back(m.id);
   return methods;
 }

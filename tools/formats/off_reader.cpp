@@ -1,0 +1,155 @@
+#include "formats/off_reader.h"
+
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "formats/position_text.h"
+#include "formats/text_scanner.h"
+#include "formats/wording.h"
+
+namespace bspc::formats {
+
+namespace {
+
+class OffReader {
+ public:
+  explicit OffReader(InputBuffer& in) : in_(in), text_(in) {}
+
+  Model read() {
+    model_.type = kTextType;
+    readKeyword();
+    vertices_ = expectCount("vertices");
+    faces_ = expectCount("faces");
+    skipNumbers("the number of edges");
+    // In text a vertex takes six bytes at the least.
+    model_.positions.reserve(in_.reservable(vertices_, 6) * 3 * sizeof(double));
+    for (index_ = 0; index_ < vertices_; ++index_) readVertex();
+    for (index_ = 0; index_ < faces_; ++index_) skipFace();
+    std::string_view token;
+    if (next(token)) text_.fail("trailing data after the last face: " + quoted(token));
+    nameOtherContent();
+    return std::move(model_);
+  }
+
+ private:
+  /// The next token of this line or a later one, comments left out.
+  bool next(std::string_view& token) {
+    while (!text_.nextToken(token)) {
+      if (!text_.nextLine()) return false;
+      text_.cutComment('#');
+    }
+    return true;
+  }
+
+  /// [ST][C][N]OFF, in front of the counts or on a line of its own.
+  void readKeyword() {
+    std::string_view token;
+    if (!next(token)) text_.failAtEnd("expected \"OFF\", found nothing");
+    std::string_view left = token;
+    if (left.substr(0, 2) == "ST") {
+      hasTexture_ = true;
+      left.remove_prefix(2);
+    }
+    if (left.substr(0, 1) == "C") {
+      hasColours_ = true;
+      left.remove_prefix(1);
+    }
+    if (left.substr(0, 1) == "N") {
+      hasNormals_ = true;
+      left.remove_prefix(1);
+    }
+    if (left == "4OFF" || left == "nOFF" || left == "4nOFF") {
+      text_.fail("an OFF file of other than three dimensions (" + quoted(token) +
+                 ") is not supported");
+    }
+    if (left != "OFF") text_.fail("expected \"OFF\", found " + quoted(token));
+  }
+
+  std::uint64_t expectCount(const char* what) {
+    const std::string name = std::string("the number of ") + what;
+    std::string_view token;
+    if (!next(token)) text_.failAtEnd("the file ends before " + name);
+    if (token == "BINARY") text_.fail("a binary OFF file is not supported; convert it to text");
+    return text_.number<std::uint64_t>(token, [&] { return name; });
+  }
+
+  /// Numbers up to the end of the line; how many.
+  std::size_t skipNumbers(const char* what) {
+    std::size_t count = 0;
+    std::string_view token;
+    for (; text_.nextToken(token); ++count) {
+      text_.number<double>(token, [what] { return std::string(what); });
+    }
+    return count;
+  }
+
+  void readVertex() {
+    std::array<double, 3> position{};
+    std::string_view token;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!next(token)) failShort("vertex", vertices_);
+      position[k] = text_.number<double>(
+          token, [&] { return std::string(1, "xyz"[k]) + " of " + place("vertex", vertices_); });
+    }
+    appendPosition(model_, position);
+    if (skipNumbers("a vertex") > 0) ++further_;
+  }
+
+  /// Its number of corners, their vertices, perhaps a colour to the end of the line.
+  void skipFace() {
+    std::string_view token;
+    if (!next(token)) failShort("face", faces_);
+    const auto corners = text_.number<std::uint64_t>(
+        token, [&] { return "the number of corners of " + place("face", faces_); });
+    for (std::uint64_t i = 0; i < corners; ++i) {
+      if (!next(token)) failShort("face", faces_);
+      const auto vertex = text_.number<std::uint64_t>(
+          token, [&] { return "a corner of " + place("face", faces_); });
+      if (vertex >= vertices_) {
+        text_.fail("a corner of " + place("face", faces_) + " is vertex " + grouped(vertex) +
+                   ", counted from 0, of only " + grouped(vertices_));
+      }
+    }
+    while (text_.nextToken(token)) {
+    }
+  }
+
+  std::string place(const char* what, std::uint64_t count) const {
+    return std::string(what) + " " + grouped(index_ + 1) + " of " + grouped(count);
+  }
+
+  [[noreturn]] void failShort(const char* what, std::uint64_t count) const {
+    text_.failAtEnd("the file ends inside " + place(what, count));
+  }
+
+  void nameOtherContent() {
+    std::vector<std::string>& content = model_.otherContent;
+    if (further_ > 0) {
+      if (hasNormals_) content.emplace_back("vertex normals");
+      if (hasColours_) content.emplace_back("vertex colours");
+      if (hasTexture_) content.emplace_back("vertex texture coordinates");
+      if (content.empty()) {
+        content.push_back("further numbers of " + counted(further_, "vertex", "vertices"));
+      }
+    }
+    if (faces_ > 0) content.push_back(counted(faces_, "face", "faces"));
+  }
+
+  InputBuffer& in_;
+  TextScanner text_;
+  Model model_;
+  bool hasTexture_ = false;
+  bool hasColours_ = false;
+  bool hasNormals_ = false;
+  std::uint64_t vertices_ = 0;
+  std::uint64_t faces_ = 0;
+  std::uint64_t further_ = 0;
+  std::uint64_t index_ = 0;
+};
+
+}  // namespace
+
+Model readOff(InputBuffer& in) { return OffReader(in).read(); }
+
+}  // namespace bspc::formats

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "formats/model.h"
+#include "formats/output_buffer.h"
+
+namespace bspc::formats {
+
+/// Writes an OFF file of vertices. Throws FormatError if the model has columns.
+void writeOff(OutputBuffer& out, const ModelView& model);
+
+}  // namespace bspc::formats
