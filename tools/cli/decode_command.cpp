@@ -40,8 +40,8 @@ OpenOptions openOptions(const DecodeArguments& args) {
   return options;
 }
 
-void printReport(const DecodeArguments& args, const FileInfo& info, const DecodedPoints& points) {
-  std::cerr << args.output << ": " << withCommas(points.points.size()) << " points";
+void printReport(const std::string& name, const FileInfo& info, const DecodedPoints& points) {
+  std::cerr << name << ": " << withCommas(points.points.size()) << " points";
   if (!points.complete) {
     std::cerr << " that stand for " << withCommas(info.points) << " (level " << points.level
               << " of 0 to " << info.layers.size() - 1 << ')';
@@ -68,15 +68,17 @@ void runDecode(const DecodeArguments& args) {
     options.wantCounts = args.counts;
     options.progress = bar.callback();
     points = naming(input.name(), [&] { return decoder.decode(options); });
+    bar.clear();
+    ProgressBar writing("writing", args.quiet);
     const RestoredPoints restored(decoder.info().grid, points);
     try {
-      formats::writeModel(output.stream(), format, restored.model());
+      formats::writeModel(output.stream(), format, restored.model(), writing.callback());
     } catch (const formats::FormatError& error) {
-      throw Error(ErrorCode::Io, args.output + ": " + error.what());
+      throw Error(ErrorCode::Io, output.name() + ": " + error.what());
     }
     output.commit();
   }
-  if (!args.quiet) printReport(args, decoder.info(), points);
+  if (!args.quiet) printReport(output.name(), decoder.info(), points);
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -64,9 +65,9 @@ EncodeOptions encodeOptions(const EncodeArguments& args) {
   return options;
 }
 
-void printReport(const EncodeArguments& args, const EncodeReport& report) {
+void printReport(const EncodeArguments& args, const std::string& name, const EncodeReport& report) {
   const auto bits = 8.0 * static_cast<double>(report.fileBytes);
-  std::cerr << args.output << ": " << withCommas(report.points) << " points in "
+  std::cerr << name << ": " << withCommas(report.points) << " points in "
             << withCommas(report.fileBytes) << " bytes";
   if (report.points > 0) {
     std::cerr << ", " << fixed(bits / static_cast<double>(report.points), 3) << " bits per point";
@@ -87,10 +88,15 @@ void printReport(const EncodeArguments& args, const EncodeReport& report) {
   std::cerr << '\n';
 }
 
+formats::Model readModel(const EncodeArguments& args) {
+  ProgressBar bar("reading", args.quiet);
+  return readModelFile(args.input, args.from, args.positionsOnly, bar.callback());
+}
+
 void runEncode(const EncodeArguments& args) {
   EncodeOptions options = encodeOptions(args);
   OutputFile output(args.output, args.force);
-  const formats::Model model = readModelFile(args.input, args.from, args.positionsOnly);
+  const formats::Model model = readModel(args);
   StreamSink sink(output.stream());
   EncodeReport report;
   {
@@ -99,7 +105,7 @@ void runEncode(const EncodeArguments& args) {
     report = naming(args.input, [&] { return encode(model.view(), sink, options); });
     output.commit();
   }
-  if (!args.quiet) printReport(args, report);
+  if (!args.quiet) printReport(args, output.name(), report);
 }
 
 std::string knownMethods() {
@@ -122,6 +128,11 @@ void addEncodeCommand(CLI::App& app) {
     return methodFromName(name) ? std::string()
                                 : "there is no such method; known: " + knownMethods();
   };
+  const auto positive = [](const std::string& text) {
+    double value = 0;
+    const bool good = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0;
+    return good ? std::string() : "the precision must be a finite number above 0";
+  };
   command->add_option("--method", args->method, "How to code positions: " + knownMethods())
       ->check(methods)
       ->group("Coding");
@@ -141,7 +152,7 @@ void addEncodeCommand(CLI::App& app) {
   command
       ->add_option("--precision", args->precision,
                    "Quantise: step in units of the data; the error is at most half of it")
-      ->check(CLI::PositiveNumber)
+      ->check(positive)
       ->group("Grid");
   command
       ->add_option("--grid", args->grid,

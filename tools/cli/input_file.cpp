@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "bspc/error.h"
+#include "cli/interrupts.h"
 
 namespace bspc::cli {
 
@@ -33,6 +34,7 @@ std::shared_ptr<ByteSource> InputFile::source() {
   while (std::cin.read(piece.data(), piece.size()) || std::cin.gcount() > 0) {
     const auto* data = reinterpret_cast<const std::uint8_t*>(piece.data());
     buffer_.insert(buffer_.end(), data, data + std::cin.gcount());
+    if (interrupted()) throw Error(ErrorCode::Cancelled, name_ + ": stopped as asked");
   }
   return std::make_shared<MemorySource>(buffer_);
 }

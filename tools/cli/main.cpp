@@ -5,7 +5,7 @@
 
 #include "bspc/error.h"
 #include "cli/commands.h"
-#include "cli/progress_bar.h"
+#include "cli/interrupts.h"
 #include "cli/usage_error.h"
 
 namespace {

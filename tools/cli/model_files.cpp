@@ -4,6 +4,7 @@
 
 #include "bspc/error.h"
 #include "cli/input_file.h"
+#include "cli/naming.h"
 #include "cli/usage_error.h"
 
 namespace bspc::cli {
@@ -34,11 +35,12 @@ void refuseOtherContent(const std::string& name, const std::vector<std::string>&
 }  // namespace
 
 formats::Model readModelFile(const std::string& path, const std::string& formatName,
-                             bool positionsOnly) {
+                             bool positionsOnly, const ProgressCallback& progress) {
   const formats::Format format = chooseFormat(formatName, path, "--from");
   InputFile input(path);
   try {
-    formats::Model model = formats::readModel(input.stream(), format);
+    formats::Model model =
+        naming(input.name(), [&] { return formats::readModel(input.stream(), format, progress); });
     if (!positionsOnly && !model.otherContent.empty()) {
       refuseOtherContent(input.name(), model.otherContent);
     }

@@ -14,6 +14,6 @@ formats::Format chooseFormat(const std::string& name, const std::string& path,
 /// Reads a model file. What a .bspc file cannot hold yet is refused by Error(Unsupported), unless
 /// `positionsOnly` is the user's word that it may be left out. Messages name the file.
 formats::Model readModelFile(const std::string& path, const std::string& formatName,
-                             bool positionsOnly);
+                             bool positionsOnly, const ProgressCallback& progress);
 
 }  // namespace bspc::cli

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "bspc/error.h"
+#include "cli/interrupts.h"
 
 namespace bspc::cli {
 
@@ -35,12 +36,16 @@ OutputFile::OutputFile(const std::string& path, bool force)
   // A device or a pipe is a place to write to, not a file to replace.
   const bool direct = exists && !fs::is_regular_file(status);
   if (exists && !direct && !force) refuseExisting(path);
-  if (!direct) temporary_ = path + ".part" + std::to_string(::getpid());
+  if (!direct) {
+    temporary_ = path + ".part" + std::to_string(::getpid());
+    setUnfinishedFile(temporary_.string());
+  }
   errno = 0;
   file_.open(direct ? fs::path(path) : temporary_, std::ios::binary | std::ios::trunc);
   if (!file_) {
     const std::string reason = errno != 0 ? std::strerror(errno) : "unknown reason";
     temporary_.clear();
+    setUnfinishedFile("");
     fail(path, "cannot be created (" + reason + ")");
   }
 }
@@ -50,6 +55,7 @@ OutputFile::~OutputFile() {
   file_.close();
   std::error_code ignored;
   fs::remove(temporary_, ignored);
+  setUnfinishedFile("");
 }
 
 std::ostream& OutputFile::stream() { return standardOutput_ ? std::cout : file_; }
@@ -68,6 +74,7 @@ void OutputFile::commit() {
   fs::rename(temporary_, path_, error);
   if (error) fail(path_, "could not be put in its place (" + error.message() + ")");
   temporary_.clear();
+  setUnfinishedFile("");
 }
 
 }  // namespace bspc::cli

@@ -3,40 +3,30 @@
 #include <unistd.h>
 
 #include <array>
-#include <csignal>
 #include <cstdio>
 #include <iostream>
+
+#include "cli/interrupts.h"
 
 namespace bspc::cli {
 
 namespace {
-
-volatile std::sig_atomic_t interruptSeen = 0;
-
-void noteInterrupt(int signal) {
-  interruptSeen = 1;
-  std::signal(signal, SIG_DFL);
-}
 
 constexpr auto kPatience = std::chrono::milliseconds(500);
 constexpr auto kRefresh = std::chrono::milliseconds(100);
 
 }  // namespace
 
-void catchInterrupts() {
-  std::signal(SIGINT, noteInterrupt);
-  std::signal(SIGTERM, noteInterrupt);
-}
-
-bool interrupted() { return interruptSeen != 0; }
-
 ProgressBar::ProgressBar(std::string label, bool quiet)
     : label_(std::move(label)),
       visible_(!quiet && ::isatty(STDERR_FILENO) != 0),
       next_(Clock::now() + kPatience) {}
 
-ProgressBar::~ProgressBar() {
+ProgressBar::~ProgressBar() { clear(); }
+
+void ProgressBar::clear() {
   if (drawn_) std::cerr << "\r\033[K" << std::flush;
+  drawn_ = false;
 }
 
 ProgressCallback ProgressBar::callback() {

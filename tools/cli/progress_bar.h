@@ -7,11 +7,6 @@
 
 namespace bspc::cli {
 
-/// Makes the first interrupt (Ctrl-C) stop the work under way through the progress callbacks, so
-/// that nothing half-written stays behind. A second one ends the program at once.
-void catchInterrupts();
-bool interrupted();
-
 /// A bar on standard error while it is a terminal and the work takes longer than a moment.
 class ProgressBar {
  public:
@@ -22,6 +17,8 @@ class ProgressBar {
 
   /// For the library; stops the work after an interrupt. The bar must outlive it.
   ProgressCallback callback();
+  /// Takes the bar from the terminal.
+  void clear();
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -27,7 +27,11 @@ struct VerifyArguments {
 
 /// Puts the original on the file's grid and compares the multisets of grid points.
 GridFit compare(const VerifyArguments& args, const FileInfo& info, std::vector<GridPoint> points) {
-  const formats::Model original = readModelFile(args.against, args.from, true);
+  formats::Model original;
+  {
+    ProgressBar bar("reading", args.quiet);
+    original = readModelFile(args.against, args.from, true, bar.callback());
+  }
   GridRequest request = GridRequest::onGrid(info.grid);
   request.dropNonFinite = args.dropNonFinite;
   GridFit fit = naming(args.against, [&] { return fitGrid(original.view(), request); });

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
+#include "bspc/error.h"
 #include "formats/model.h"
 #include "formats/wording.h"
 
@@ -29,19 +31,30 @@ std::uint64_t bytesToEnd(std::istream& in) {
 
 }  // namespace
 
-InputBuffer::InputBuffer(std::istream& in) : in_(in), buffer_(kBlock) {
+InputBuffer::InputBuffer(std::istream& in, ProgressCallback progress)
+    : in_(in), progress_(std::move(progress)), buffer_(kBlock) {
   if (!in) throw FormatError("cannot be read: the input stream has failed");
   streamBytes_ = bytesToEnd(in);
 }
 
 std::size_t InputBuffer::readStream(char* to, std::size_t count) {
   if (!in_) return 0;
+  report();
   in_.read(to, static_cast<std::streamsize>(count));
   if (in_.bad()) {
     throw FormatError("cannot be read: the input stream has failed after byte " +
                       grouped(offset_ + available()));
   }
   return static_cast<std::size_t>(in_.gcount());
+}
+
+void InputBuffer::report() {
+  if (!progress_) return;
+  const auto done = static_cast<double>(offset_);
+  const auto all = static_cast<double>(std::max(streamBytes_, offset_));
+  if (!progress_(all > 0 && streamBytes_ > 0 ? done / all : 0)) {
+    throw Error(ErrorCode::Cancelled, "stopped as asked");
+  }
 }
 
 bool InputBuffer::fill() {

@@ -5,13 +5,16 @@
 #include <istream>
 #include <vector>
 
+#include "bspc/progress.h"
+
 namespace bspc::formats {
 
 /// Reads a stream in large blocks and shows them as contiguous memory, which grows only as bytes
-/// arrive. The stream need not be seekable. Throws FormatError if the stream fails.
+/// arrive. The stream need not be seekable. Throws FormatError if the stream fails,
+/// Error(Cancelled) once `progress` asks to stop.
 class InputBuffer {
  public:
-  explicit InputBuffer(std::istream& in);
+  explicit InputBuffer(std::istream& in, ProgressCallback progress = {});
 
   const char* data() const { return buffer_.data() + begin_; }
   std::size_t available() const { return end_ - begin_; }
@@ -44,8 +47,10 @@ class InputBuffer {
 
  private:
   std::size_t readStream(char* to, std::size_t count);
+  void report();
 
   std::istream& in_;
+  ProgressCallback progress_;
   std::vector<char> buffer_;
   std::size_t begin_ = 0;
   std::size_t end_ = 0;

@@ -50,8 +50,8 @@ std::optional<Format> formatFromPath(std::string_view path) {
   return found->second;
 }
 
-Model readModel(std::istream& in, Format format) {
-  InputBuffer input(in);
+Model readModel(std::istream& in, Format format, const ProgressCallback& progress) {
+  InputBuffer input(in, progress);
   switch (format) {
     case Format::Ply:
       return readPly(input);
@@ -66,9 +66,10 @@ Model readModel(std::istream& in, Format format) {
   throw FormatError("there is no reader for this format");
 }
 
-void writeModel(std::ostream& out, Format format, const ModelView& model) {
+void writeModel(std::ostream& out, Format format, const ModelView& model,
+                const ProgressCallback& progress) {
   requireWholeColumns(model);
-  OutputBuffer output(out);
+  OutputBuffer output(out, progress);
   switch (format) {
     case Format::Ply:
       writePly(output, model);

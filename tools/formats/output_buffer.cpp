@@ -1,11 +1,21 @@
 #include "formats/output_buffer.h"
 
+#include <algorithm>
+
+#include "bspc/error.h"
 #include "formats/model.h"
 
 namespace bspc::formats {
 
 void OutputBuffer::requireGood() {
   if (!out_) throw FormatError("could not write: the output stream has failed");
+}
+
+void OutputBuffer::report(std::uint64_t done, std::uint64_t all) {
+  if (!progress_) return;
+  if (!progress_(static_cast<double>(done) / static_cast<double>(all))) {
+    throw Error(ErrorCode::Cancelled, "stopped as asked");
+  }
 }
 
 void OutputBuffer::flush() {
@@ -16,8 +26,15 @@ void OutputBuffer::flush() {
 
 void OutputBuffer::write(const void* data, std::uint64_t size) {
   flush();
-  out_.write(static_cast<const char*>(data), static_cast<std::streamsize>(size));
-  requireGood();
+  constexpr std::uint64_t kPiece = std::uint64_t{1} << 22;
+  const auto* bytes = static_cast<const char*>(data);
+  for (std::uint64_t done = 0; done < size;) {
+    const std::uint64_t piece = std::min(kPiece, size - done);
+    out_.write(bytes + done, static_cast<std::streamsize>(piece));
+    requireGood();
+    done += piece;
+    report(done, size);
+  }
 }
 
 void OutputBuffer::finish() {

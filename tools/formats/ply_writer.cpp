@@ -118,7 +118,8 @@ void writeRecords(OutputBuffer& out, std::uint64_t count, const std::vector<Prop
       }
     }
     if (!hostIsLittleEndian()) swapRecords(block, recordBytes, size, properties);
-    out.write(block.data(), size * recordBytes);
+    out.text().append(reinterpret_cast<const char*>(block.data()), size * recordBytes);
+    out.advance(first + size, count);
   }
 }
 

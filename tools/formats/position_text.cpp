@@ -40,7 +40,7 @@ void writePositionLines(OutputBuffer& out, const ModelView& model, const char* p
       appendNumber(text, column.values[i]);
     }
     text += '\n';
-    out.flushIfFull();
+    out.advance(i + 1, model.points.size());
   }
 }
 

@@ -119,18 +119,20 @@ class XyzReader {
     std::string_view field;
     std::size_t column = 0;
     for (; text_.nextField(separator_, field); ++column) {
-      if (column >= axisOf_.size()) continue;
+      if (column >= axisOf_.size()) {
+        text_.fail("expected " + counted(axisOf_.size(), "column", "columns") +
+                   " as in the first line, found more");
+      }
       const std::size_t axis = axisOf_[column];
       if (axis == 3) continue;
       position[axis] = text_.number<double>(field, [axis] { return std::string(1, "xyz"[axis]); });
     }
+    // An empty last column leaves nothing behind its separator.
+    const bool endsEmpty = separator_ != ' ' && text_.endsWith(separator_);
+    if (endsEmpty && column < axisOf_.size() && axisOf_[column] == 3) ++column;
     if (column < axisOf_.size()) {
       text_.failAtEnd("expected " + counted(axisOf_.size(), "column", "columns") + ", found " +
                       grouped(column));
-    }
-    if (column > axisOf_.size()) {
-      text_.fail("expected " + counted(axisOf_.size(), "column", "columns") +
-                 " as in the first line, found " + grouped(column));
     }
     appendPosition(model_, position);
   }

@@ -63,6 +63,7 @@ TEST(Xyz, ErrorsSayWhere) {
   expectInMessage(failure("1 2 3\n4 5 6 7\n", Format::Xyz), {"line 2, column 7", "3 columns"});
   expectInMessage(failure("1;2;3\n4;5,5;6\n", Format::Csv), {"line 2, column 3", "5,5"});
   expectInMessage(failure("1,,3\n", Format::Csv), {"line 1, column 3", "nothing"});
+  expectInMessage(failure("1,2,\n", Format::Csv), {"line 1, column 5", "3 columns, found 2"});
   expectInMessage(failure("a,b,c\n1,2,3\n", Format::Csv), {"line 1", "x, y and z", "a"});
   expectInMessage(failure("x,y,z,x\n1,2,3,4\n", Format::Csv), {"line 1", "second", "x"});
 }
