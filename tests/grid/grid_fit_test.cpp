@@ -228,7 +228,7 @@ TEST(FitReuse, RefusesWhatDoesNotFit) {
 TEST(FitNonFinite, NamesTheFirstPoint) {
   std::vector<float> xyz = randomOn<float>(2000, 0, 9, [](double k) { return k; });
   xyz[3 * 1234 + 1] = std::numeric_limits<float>::quiet_NaN();
-  xyz[3 * 1999] = -std::numeric_limits<float>::infinity();
+  xyz[std::size_t{3} * 1999] = -std::numeric_limits<float>::infinity();
   const std::string message = messageOf(ErrorCode::NonFinite, [&] { fitGrid(viewOf(xyz), {}); });
   for (const char* part : {"point 1234", "y = nan", "and 1 more", "--drop-nonfinite"}) {
     EXPECT_NE(message.find(part), std::string::npos) << message;

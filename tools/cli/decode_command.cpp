@@ -99,11 +99,11 @@ void addDecodeCommand(CLI::App& app) {
       ->group("Level of detail");
   command
       ->add_flag("--counts", args->counts,
-                 "Add a property PointCount: how many points each stands for")
+                 "Add PointCount: how many points each stands for (PLY, XYZ, CSV)")
       ->group("Level of detail");
   command
       ->add_option("--color-level", args->colourLevel,
-                   "Add a property CellId: the cell of that level that each point lies in")
+                   "Add CellId: the cell of that level that each point lies in")
       ->group("Level of detail");
   command->add_flag("--partial", args->partial,
                     "Decode what is whole of a file that was cut short");

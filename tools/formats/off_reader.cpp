@@ -71,7 +71,7 @@ class OffReader {
     std::string_view token;
     if (!next(token)) text_.failAtEnd("the file ends before " + name);
     if (token == "BINARY") text_.fail("a binary OFF file is not supported; convert it to text");
-    return text_.number<std::uint64_t>(token, [&] { return name; });
+    return text_.number<std::uint64_t>(token, [&]() -> const std::string& { return name; });
   }
 
   /// Numbers up to the end of the line; how many.

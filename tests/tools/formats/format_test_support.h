@@ -78,8 +78,9 @@ inline void expectInMessage(const std::string& message, const std::vector<std::s
 inline void expectNoMutationHarms(const std::string& good, Format format, int mutations) {
   std::mt19937_64 random(good.size());
   const auto below = [&](std::size_t end) { return static_cast<std::size_t>(random() % end); };
-  const std::string snippets[] = {"-",    "1e999",  "99999999999999999999",        "nan", "\n",
-                                  "list", "\"\\\"", "element vertex 4294967295\n", "#",   "\0"};
+  const std::string snippets[] = {
+      "-",    "1e999",  "99999999999999999999",        "nan", "\n",
+      "list", "\"\\\"", "element vertex 4294967295\n", "#",   std::string(1, '\0')};
   int refused = 0;
   for (int i = 0; i < mutations; ++i) {
     std::string text = good;
