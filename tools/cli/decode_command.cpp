@@ -109,7 +109,8 @@ void addDecodeCommand(CLI::App& app) {
                     "Decode what is whole of a file that was cut short");
   command->add_option("--max-memory", args->maxMemory, "Memory limit in GiB (default 16)")
       ->check(CLI::PositiveNumber);
-  command->add_option("--to", args->to, "Format of the output where its name does not tell");
+  command->add_option("--to", args->to, "Format of the output where its name does not tell")
+      ->type_name("ply|obj|off|xyz|csv");
   command->add_flag("-f,--force", args->force, "Replace an existing output file");
   command->add_flag("-q,--quiet", args->quiet, "Print nothing but errors");
   command->callback([args] { runDecode(*args); });

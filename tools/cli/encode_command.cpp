@@ -134,36 +134,42 @@ void addEncodeCommand(CLI::App& app) {
     return good ? std::string() : "the precision must be a finite number above 0";
   };
   command->add_option("--method", args->method, "How to code positions: " + knownMethods())
+      ->type_name("NAME")
       ->check(methods)
       ->group("Coding");
   command->add_option("--layers", args->layers, "Layers of detail, 1 to 32 (default: by size)")
+      ->option_text("N")
       ->check(CLI::Range(1U, kMaxLayers))
       ->group("Coding");
-  command
-      ->add_option("--layout", args->layout,
-                   "progressive (index in front, the default) or streaming (at the end)")
+  command->add_option("--layout", args->layout, "Index in front (the default) or at the end")
+      ->option_text("progressive|streaming")
       ->check(CLI::IsMember({"progressive", "streaming"}))
       ->group("Coding");
   command
       ->add_option("--bits", args->bits,
                    "Quantise: the largest extent spans 2^BITS - 1 steps (1 to 32)")
+      ->option_text("BITS")
       ->check(CLI::Range(1U, 32U))
       ->group("Grid");
   command
       ->add_option("--precision", args->precision,
                    "Quantise: step in units of the data; the error is at most half of it")
       ->check(positive)
+      ->type_name("STEP")
       ->group("Grid");
   command
       ->add_option("--grid", args->grid,
-                   "auto: finds the lattice that the points lie on and keeps them exactly, else "
-                   "float precision; FILE.bspc: that file's grid, so that neighbours meet")
+                   "auto (the default) finds the lattice that the points\n"
+                   "lie on and keeps them exactly, else to float precision;\n"
+                   "FILE.bspc takes that file's, so that neighbours meet")
+      ->type_name("auto|FILE.bspc")
       ->group("Grid");
   command->add_flag("--drop-nonfinite", args->dropNonFinite,
                     "Leave out points with NaN or infinite coordinates");
   command->add_flag("--positions-only", args->positionsOnly,
                     "Leave out faces and every property but the positions");
-  command->add_option("--from", args->from, "Format of the input where its name does not tell");
+  command->add_option("--from", args->from, "Format of the input where its name does not tell")
+      ->type_name("ply|obj|off|xyz|csv");
   command->add_flag("-f,--force", args->force, "Replace an existing output file");
   command->add_flag("-q,--quiet", args->quiet, "Print nothing but errors");
   command->callback([args] { runEncode(*args); });

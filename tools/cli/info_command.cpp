@@ -124,6 +124,10 @@ void addInfoCommand(CLI::App& app) {
   command->add_flag("--json", args->json, "Print JSON");
   command->add_flag("--partial", args->partial, "Accept a file that was cut short");
   command->callback([args] { runInfo(*args); });
+  command->footer(
+      "Examples:\n"
+      "  bspc info scan.bspc\n"
+      "  bspc info scan.bspc --json | jq .points");
 }
 
 }  // namespace bspc::cli

@@ -94,6 +94,10 @@ void addVerifyCommand(CLI::App& app) {
                     "Leave out the model's points with NaN or infinite coordinates");
   command->add_flag("-q,--quiet", args->quiet, "Print nothing but errors");
   command->callback([args] { runVerify(*args); });
+  command->footer(
+      "Examples:\n"
+      "  bspc verify scan.bspc\n"
+      "  bspc verify scan.bspc --against scan.ply   also says how exact the points are");
 }
 
 }  // namespace bspc::cli
