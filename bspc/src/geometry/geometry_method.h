@@ -21,12 +21,20 @@ struct LayerSummary {
   std::uint32_t spread = 0;  ///< greatest distance of a point to its representative, per axis
 };
 
+/// What a caller may ask of a method; each heeds what concerns it.
+struct CodingWishes {
+  unsigned effort = 2;                ///< 1 (quickest) … 9 (smallest)
+  std::uint64_t stopPoints = 0;       ///< lossy: cells of so many points or fewer stay undivided
+  std::optional<unsigned> stopLevel;  ///< lossy: cells of this level stay undivided
+};
+
 /// A tile to be coded: its points, in grid steps from the lower corner of its tight box.
 struct TileInput {
   Span<const GridPoint> points;
   GridPoint lower{};   ///< subtracted from each point
   GridPoint extent{};  ///< greatest coordinate after that
   unsigned layers = 1;
+  CodingWishes wishes;
 };
 
 struct EncodedTile {
