@@ -16,20 +16,10 @@ void appendTo(std::vector<T>& to, const std::vector<T>& from) {
 
 }  // namespace
 
-void DecodedTiles::append(geometry::DecodedTile tile, const GridPoint& lower) {
-  if (lower != GridPoint{}) {
-    for (GridPoint& p : tile.points) {
-      for (std::size_t k = 0; k < 3; ++k) p[k] += lower[k];
-    }
-  }
-  std::uint64_t cells = 0;
-  for (std::uint64_t& id : tile.cellIds) {
-    cells = std::max(cells, id + 1);
-    id += cells_;
-  }
-  cells_ += cells;
+void DecodedTiles::append(DecodedPoints&& tile) {
   if (all_.points.empty()) {
     all_ = std::move(tile);
+    bytes_ = all_.points.capacity() * bytesPerPoint_;
     return;
   }
   if (all_.points.size() + tile.points.size() > limits_.points) {
@@ -48,12 +38,7 @@ void DecodedTiles::append(geometry::DecodedTile tile, const GridPoint& lower) {
   appendTo(all_.points, tile.points);
   appendTo(all_.counts, tile.counts);
   appendTo(all_.cellIds, tile.cellIds);
-}
-
-void DecodedTiles::moveInto(DecodedPoints& result) {
-  result.points = std::move(all_.points);
-  result.counts = std::move(all_.counts);
-  result.cellIds = std::move(all_.cellIds);
+  bytes_ = all_.points.capacity() * bytesPerPoint_;
 }
 
 void thinTo(std::uint64_t count, DecodedPoints& points) {

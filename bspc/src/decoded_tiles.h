@@ -1,10 +1,11 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
+#include <utility>
 
 #include "bspc/decoder.h"
 #include "bspc/limits.h"
-#include "geometry/geometry_method.h"
 
 namespace bspc {
 
@@ -15,16 +16,16 @@ class DecodedTiles {
       : limits_(limits),
         bytesPerPoint_(sizeof(GridPoint) + (counts ? 8U : 0U) + (cellIds ? 8U : 0U)) {}
 
-  /// Moves a tile to its place in the grid and appends it. Throws Error(LimitExceeded).
-  void append(geometry::DecodedTile tile, const GridPoint& lower);
-  std::uint64_t bytes() const { return all_.points.capacity() * bytesPerPoint_; }
-  void moveInto(DecodedPoints& result);
+  /// Throws Error(LimitExceeded).
+  void append(DecodedPoints&& tile);
+  std::uint64_t bytes() const { return bytes_; }
+  DecodedPoints take() { return std::move(all_); }
 
  private:
   const DecodeLimits& limits_;
   std::uint64_t bytesPerPoint_;
-  std::uint64_t cells_ = 0;
-  geometry::DecodedTile all_;
+  DecodedPoints all_;
+  std::atomic<std::uint64_t> bytes_{0};  ///< read by other threads
 };
 
 /// Keeps `count` points, evenly spaced in the coder's order (so over space as well); the others

@@ -1,25 +1,19 @@
 #include "bspc/decoder.h"
 
 #include <algorithm>
-#include <limits>
-#include <string>
 
-#include "bspc/error.h"
-#include "container/checksum.h"
 #include "container/container_reader.h"
 #include "decoded_tiles.h"
-#include "geometry/geometry_method.h"
+#include "parallel.h"
 #include "progress_scale.h"
+#include "query.h"
+#include "saturating.h"
+#include "shared_progress.h"
+#include "tile_decoder.h"
 
 namespace bspc {
 
 namespace {
-
-std::uint64_t saturatingAdd(std::uint64_t a, std::uint64_t b) {
-  return b > std::numeric_limits<std::uint64_t>::max() - a
-             ? std::numeric_limits<std::uint64_t>::max()
-             : a + b;
-}
 
 void addTileInfo(FileInfo& info, const container::TileRecord& tile) {
   TileInfo t;
@@ -38,6 +32,7 @@ void addTileInfo(FileInfo& info, const container::TileRecord& tile) {
     info.layers[l].points =
         saturatingAdd(info.layers[l].points, last ? tile.points : tile.coarse[l].representatives);
     if (!last) info.layers[l].spread = std::max(info.layers[l].spread, tile.coarse[l].spread);
+    if (l < tile.lacking) continue;
     info.layers[l].bytes = saturatingAdd(info.layers[l].bytes, tile.chunkSizes[l]);
     info.geometryBytes = saturatingAdd(info.geometryBytes, tile.chunkSizes[l]);
   }
@@ -62,129 +57,116 @@ FileInfo describe(const container::ContainerReader& file) {
 class Decoder::Impl {
  public:
   Impl(std::shared_ptr<ByteSource> source, const OpenOptions& options)
-      : file_(std::move(source), options), info_(describe(file_)), limits_(options.limits) {}
+      : file_(std::move(source), options),
+        info_(describe(file_)),
+        limits_(options.limits),
+        tileDecoder_(file_, limits_) {}
 
   const FileInfo& info() const { return info_; }
+  QueryCost cost(const DecodeOptions& options) const;
   DecodedPoints decode(const DecodeOptions& options);
+  void decodeTiles(const DecodeOptions& options, const TileVisitor& visit);
 
  private:
-  unsigned chooseLevel(const DecodeOptions& options) const;
-  geometry::DecodedTile decodeTile(std::size_t index, unsigned level, const DecodeOptions& options,
-                                   std::uint64_t bytesInUse, ProgressScale& progress) const;
-  void checkTile(std::size_t index, unsigned level, const geometry::DecodedTile& tile) const;
+  void decodeQuery(const Query& query, const DecodeOptions& options,
+                   const std::function<std::uint64_t()>& bytesInUse, const TileVisitor& visit);
+  DecodedPoints place(std::size_t tile, const Query& query, const DecodeOptions& options,
+                      geometry::DecodedTile decoded) const;
 
   container::ContainerReader file_;
   FileInfo info_;
   DecodeLimits limits_;
+  TileDecoder tileDecoder_;
 };
 
-unsigned Decoder::Impl::chooseLevel(const DecodeOptions& options) const {
-  const auto layers = static_cast<unsigned>(info_.layers.size());
-  if (options.level && *options.level >= layers) {
-    throw Error(ErrorCode::InvalidArgument, "level " + std::to_string(*options.level) +
-                                                " was asked for; the file has levels " + "0 to " +
-                                                std::to_string(layers - 1));
-  }
-  if (options.level && *options.level >= info_.wholeLayers) {
-    throw Error(ErrorCode::Truncated,
-                "level " + std::to_string(*options.level) +
-                    " was asked for, and the file was cut short after level " +
-                    std::to_string(info_.wholeLayers - 1));
-  }
-  unsigned level = options.level.value_or(std::max(info_.wholeLayers, 1U) - 1);
-  if (options.maxPoints) {
-    while (level > 0 && info_.layers[level].points > *options.maxPoints) --level;
-  }
-  if (options.cellLevel && *options.cellLevel > level) {
-    throw Error(ErrorCode::InvalidArgument, "cells of level " + std::to_string(*options.cellLevel) +
-                                                " were asked for, and only levels up to " +
-                                                std::to_string(level) + " are decoded");
-  }
-  return level;
+QueryCost Decoder::Impl::cost(const DecodeOptions& options) const {
+  const Query query = planQuery(file_, options);
+  return {query.tiles.size(), query.points, bytesRead(file_, query), query.level};
 }
 
-geometry::DecodedTile Decoder::Impl::decodeTile(std::size_t index, unsigned level,
-                                                const DecodeOptions& options,
-                                                std::uint64_t bytesInUse,
-                                                ProgressScale& progress) const {
-  const container::TileRecord& record = file_.tiles()[index];
-  const geometry::GeometryMethod* method =
-      geometry::findGeometryMethod(static_cast<Method>(record.method));
-  if (method == nullptr || record.version > method->version()) {
-    throw Error(ErrorCode::Unsupported,
-                "tile " + std::to_string(index) + " is coded by method number " +
-                    std::to_string(record.method) + ", version " + std::to_string(record.version) +
-                    ", which this version does not know; use a newer one");
+/// Moves a decoded tile to its place in the file, and leaves what the query is about.
+DecodedPoints Decoder::Impl::place(std::size_t tile, const Query& query,
+                                   const DecodeOptions& options,
+                                   geometry::DecodedTile decoded) const {
+  DecodedPoints points;
+  points.points = std::move(decoded.points);
+  points.counts = std::move(decoded.counts);
+  points.cellIds = std::move(decoded.cellIds);
+  points.level = query.level;
+  points.complete = query.complete;
+  const GridPoint& lower = file_.tiles()[tile].lower;
+  if (lower != GridPoint{}) {
+    for (GridPoint& p : points.points) {
+      for (std::size_t k = 0; k < 3; ++k) p[k] += lower[k];
+    }
   }
-  file_.checkTileBlock(index);
-  std::vector<Bytes> payloads;
-  std::uint64_t payloadBytes = 0;
-  geometry::TileToDecode tile;
-  for (unsigned l = 0; l <= level; ++l) {
-    payloads.push_back(file_.chunk(index, l));
-    payloadBytes += payloads.back().size();
+  if (options.cellLevel && tile > 0) {
+    std::uint64_t before = 0;
+    for (std::size_t i = 0; i < tile; ++i) {
+      before = saturatingAdd(before, pointsUpTo(file_.tiles()[i], *options.cellLevel));
+    }
+    for (std::uint64_t& id : points.cellIds) id += before;
   }
-  tile.payloads.assign(payloads.begin(), payloads.end());
-  tile.version = record.version;
-  tile.points = record.points;
-  tile.extent = record.extent;
-  tile.layers = file_.head().layers;
-  tile.cellLevel = options.cellLevel;
-  tile.wantCounts = options.wantCounts;
-  tile.maxPoints = limits_.points;
-  const std::uint64_t used = saturatingAdd(bytesInUse, payloadBytes);
-  tile.maxBytes = limits_.memoryBytes > used ? limits_.memoryBytes - used : 0;
-  tile.maxDepth = limits_.depth;
-  const auto share = static_cast<double>(record.points);
-  geometry::DecodedTile decoded = method->decode(tile, [&progress, share](std::uint64_t done) {
-    progress.report(static_cast<double>(done) / share);
-  });
-  checkTile(index, level, decoded);
-  return decoded;
+  if (query.filter) query.filter->apply(points);
+  return points;
 }
 
-void Decoder::Impl::checkTile(std::size_t index, unsigned level,
-                              const geometry::DecodedTile& tile) const {
-  const container::TileRecord& record = file_.tiles()[index];
-  const bool complete = level + 1 == file_.head().layers;
-  const std::uint64_t expected = complete ? record.points : record.coarse[level].representatives;
-  const bool right =
-      tile.points.size() == expected &&
-      (!complete || container::contentChecksum(tile.points) == record.contentChecksum);
-  if (!right) {
-    throw Error(ErrorCode::Corrupt,
-                "the points of tile " + std::to_string(index) +
-                    " are not those that were written (" + std::to_string(tile.points.size()) +
-                    " of " + std::to_string(expected) +
-                    " decoded, or wrong content checksum): the file is damaged, or this machine "
-                    "does not calculate as it should");
-  }
+/// Decodes the tiles of a query, on several threads, and hands them on in order.
+void Decoder::Impl::decodeQuery(const Query& query, const DecodeOptions& options,
+                                const std::function<std::uint64_t()>& bytesInUse,
+                                const TileVisitor& visit) {
+  ProgressScale scale(options.progress, 0, 1);
+  SharedProgress progress(scale, query.points);
+  progress.report();
+  const unsigned threads = static_cast<unsigned>(std::min<std::size_t>(
+      threadCount(options.threads), std::max<std::size_t>(query.tiles.size(), 1)));
+  // Twice as many results as threads wait at the most, each with its share of the memory.
+  const std::uint64_t shares = threads == 1 ? 1 : std::uint64_t{3} * threads;
+  const auto produce = [&](std::size_t i) {
+    const std::uint64_t used = bytesInUse();
+    const std::uint64_t free = limits_.memoryBytes > used ? limits_.memoryBytes - used : 0;
+    const std::size_t tile = query.tiles[i];
+    return place(tile, query, options,
+                 tileDecoder_.decode(tile, query.level, options, free / shares, progress.piece()));
+  };
+  OrderedParallel<DecodedPoints>(query.tiles.size(), threads, produce)
+      .run([&](std::size_t /*i*/, DecodedPoints points) { visit(std::move(points)); },
+           [&progress] { progress.report(); });
+  scale.report(1);
 }
 
 DecodedPoints Decoder::Impl::decode(const DecodeOptions& options) {
-  DecodedPoints result;
-  result.level = chooseLevel(options);
-  const auto layers = static_cast<unsigned>(info_.layers.size());
-  result.complete = result.level + 1 == layers && !file_.tilesMissing();
-  const bool thin = options.maxPoints && info_.layers[result.level].points > *options.maxPoints;
+  const Query query = planQuery(file_, options);
   DecodedTiles all(limits_, options.wantCounts, options.cellLevel.has_value());
-  const auto total = static_cast<double>(std::max<std::uint64_t>(info_.points, 1));
-  double done = 0;
-  for (std::size_t i = 0; i < file_.tiles().size(); ++i) {
-    const auto points = static_cast<double>(file_.tiles()[i].points);
-    ProgressScale progress(options.progress, done / total, (done + points) / total);
-    progress.report(0);
-    geometry::DecodedTile tile = decodeTile(i, result.level, options, all.bytes(), progress);
-    all.append(std::move(tile), file_.tiles()[i].lower);
-    done += points;
-  }
-  all.moveInto(result);
-  if (thin) {
+  decodeQuery(
+      query, options, [&all] { return all.bytes(); },
+      [&all](DecodedPoints&& points) { all.append(std::move(points)); });
+  DecodedPoints result = all.take();
+  result.level = query.level;
+  result.complete = query.complete;
+  if (query.thin && result.points.size() > *options.maxPoints) {
     thinTo(*options.maxPoints, result);
-    result.complete = false;
   }
-  ProgressScale(options.progress, 1, 1).report(1);
   return result;
+}
+
+void Decoder::Impl::decodeTiles(const DecodeOptions& options, const TileVisitor& visit) {
+  const Query query = planQuery(file_, options);
+  double before = 0;
+  std::uint64_t kept = 0;
+  decodeQuery(
+      query, options, [] { return std::uint64_t{0}; },
+      [&](DecodedPoints&& points) {
+        if (query.thin) {
+          // Shares are rounded down to where the tile ends, so that they add up to the budget.
+          before += static_cast<double>(points.points.size()) / static_cast<double>(query.points);
+          const auto due = static_cast<std::uint64_t>(std::min(before, 1.0) *
+                                                      static_cast<double>(*options.maxPoints));
+          thinTo(due > kept ? due - kept : 0, points);
+          kept += points.points.size();
+        }
+        visit(std::move(points));
+      });
 }
 
 Decoder::Decoder(std::shared_ptr<ByteSource> source, const OpenOptions& options)
@@ -196,6 +178,12 @@ Decoder& Decoder::operator=(Decoder&&) noexcept = default;
 const FileInfo& Decoder::info() const { return impl_->info(); }
 
 DecodedPoints Decoder::decode(const DecodeOptions& options) { return impl_->decode(options); }
+
+void Decoder::decodeTiles(const DecodeOptions& options, const TileVisitor& visit) {
+  impl_->decodeTiles(options, visit);
+}
+
+QueryCost Decoder::cost(const DecodeOptions& options) const { return impl_->cost(options); }
 
 bool isBspc(ByteView firstBytes) {
   return firstBytes.size() >= container::kSignature.size() &&

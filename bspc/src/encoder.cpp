@@ -1,136 +1,113 @@
 #include "bspc/encoder.h"
 
 #include <algorithm>
-#include <limits>
 #include <string>
+#include <utility>
 
 #include "bspc/error.h"
-#include "container/checksum.h"
+#include "coding_plan.h"
 #include "container/container_writer.h"
-#include "geometry/geometry_method.h"
+#include "parallel.h"
 #include "progress_scale.h"
+#include "shared_progress.h"
+#include "tile_encoder.h"
+#include "tiling/tile_cut.h"
 
 namespace bspc {
 
 namespace {
 
-/// Below this a file has one layer: it is on the screen at once anyway.
-constexpr std::uint64_t kLayeredPoints = 4096;
-/// The coarsest layer of a larger one has about so many representatives.
-constexpr std::uint64_t kCoarsestPoints = 256;
 /// Share of the time that putting points on the grid takes.
 constexpr double kGridShare = 0.15;
 
-void checkOptions(const PointSetView& points, const EncodeOptions& options) {
-  if (!points.arrays().empty()) {
-    throw Error(ErrorCode::Unsupported, "the point set has the array \"" + points.arrays()[0].name +
-                                            "\", and this version stores positions only; leave "
-                                            "the arrays out to store the positions");
-  }
-  if (options.layers > kMaxLayers) {
-    throw Error(ErrorCode::InvalidArgument, std::to_string(options.layers) +
-                                                " layers were asked for; a file has at most " +
-                                                std::to_string(kMaxLayers));
-  }
+void refuseArrays(const PointSetView& points) {
+  if (points.arrays().empty()) return;
+  throw Error(ErrorCode::Unsupported, "the point set has the array \"" + points.arrays()[0].name +
+                                          "\", and this version stores positions only; leave "
+                                          "the arrays out to store the positions");
 }
 
-unsigned chooseLayers(std::uint64_t points, unsigned wished) {
-  if (wished != 0) return wished;
-  if (points < kLayeredPoints) return 1;
-  // Each layer has a quarter of the next one's representatives.
-  unsigned layers = 1;
-  while ((points >> (2 * layers)) >= kCoarsestPoints && layers < kMaxLayers) ++layers;
-  return layers;
-}
+/// Codes the points of one fit and hands them to a container.
+class SetEncoder {
+ public:
+  SetEncoder(const GridFit& fit, const CodingPlan& plan, const EncodeOptions& options,
+             EncodeReport& report)
+      : fit_(fit), plan_(plan), options_(options), report_(report) {}
 
-geometry::TileInput wholeTile(const GridFit& fit, unsigned layers) {
-  geometry::TileInput tile;
-  tile.points = fit.points;
-  tile.layers = layers;
-  if (fit.points.empty()) return tile;
-  GridPoint upper{};
-  tile.lower.fill(std::numeric_limits<std::uint32_t>::max());
-  for (const GridPoint& p : fit.points) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      tile.lower[k] = std::min(tile.lower[k], p[k]);
-      upper[k] = std::max(upper[k], p[k]);
+  void run(container::ContainerWriter& writer, ProgressScale& scale) {
+    const TileEncoder encoder(*plan_.method, plan_.layers, plan_.wishes);
+    SharedProgress progress(scale, fit_.points.size());
+    // Tiles are addressed by 32-bit indices, so sets beyond that are cut into parts first.
+    constexpr std::size_t kPart = std::size_t{1} << 31;
+    for (std::size_t first = 0; first < fit_.points.size(); first += kPart) {
+      const std::size_t count = std::min(kPart, fit_.points.size() - first);
+      runPart(first, Span<const GridPoint>(fit_.points).subspan(first, count), encoder, writer,
+              progress);
     }
   }
-  for (std::size_t k = 0; k < 3; ++k) tile.extent[k] = upper[k] - tile.lower[k];
-  return tile;
-}
 
-std::uint64_t checksumInOrder(const geometry::TileInput& tile,
-                              const std::vector<std::uint32_t>& order) {
-  std::vector<GridPoint> decoded;
-  decoded.reserve(order.size());
-  for (const std::uint32_t i : order) {
-    GridPoint p = tile.points[i];
-    for (std::size_t k = 0; k < 3; ++k) p[k] -= tile.lower[k];
-    decoded.push_back(p);
+ private:
+  void runPart(std::size_t offset, Span<const GridPoint> points, const TileEncoder& encoder,
+               container::ContainerWriter& writer, SharedProgress& progress) {
+    const tiling::TileCut cut =
+        tiling::cutTiles(points, static_cast<std::size_t>(plan_.tilePoints));
+    const auto produce = [&](std::size_t i) {
+      const std::size_t count = cut.firsts[i + 1] - cut.firsts[i];
+      if (cut.order.empty()) return encoder.encode(points, progress.piece());
+      std::vector<GridPoint> tile(count);
+      for (std::size_t j = 0; j < count; ++j) tile[j] = points[cut.order[cut.firsts[i] + j]];
+      return encoder.encode(tile, progress.piece());
+    };
+    const auto consume = [&](std::size_t i, FinishedTile tile) {
+      for (const Bytes& chunk : tile.chunks) report_.geometryBytes += chunk.size();
+      ++report_.tiles;
+      if (options_.wantOrder) appendOrder(cut, i, offset, tile.order);
+      writer.addTile(std::move(tile.record), std::move(tile.chunks));
+    };
+    OrderedParallel<FinishedTile>(cut.tiles(), threadCount(options_.threads), produce)
+        .run(consume, [&progress] { progress.report(); });
   }
-  return container::contentChecksum(decoded);
-}
 
-void addTile(container::ContainerWriter& writer, const geometry::TileInput& tile,
-             const geometry::GeometryMethod& method, geometry::EncodedTile coded,
-             EncodeReport& report) {
-  container::TileRecord record;
-  record.method = static_cast<unsigned>(method.id());
-  record.version = method.version();
-  record.points = tile.points.size();
-  record.lower = tile.lower;
-  record.extent = tile.extent;
-  record.coarse = std::move(coded.coarse);
-  record.contentChecksum = checksumInOrder(tile, coded.order);
-  for (const Bytes& layer : coded.layers) report.geometryBytes += layer.size();
-  writer.addTile(std::move(record), std::move(coded.layers));
-  ++report.tiles;
-}
+  void appendOrder(const tiling::TileCut& cut, std::size_t tile, std::size_t offset,
+                   const std::vector<std::uint32_t>& order) {
+    for (const std::uint32_t j : order) {
+      const std::size_t inPart = cut.firsts[tile] + j;
+      const std::size_t index = offset + (cut.order.empty() ? inPart : cut.order[inPart]);
+      report_.order.push_back(fit_.sourceIndex.empty() ? index : fit_.sourceIndex[index]);
+    }
+  }
+
+  const GridFit& fit_;
+  const CodingPlan& plan_;
+  const EncodeOptions& options_;
+  EncodeReport& report_;
+};
 
 }  // namespace
 
 EncodeReport encode(const PointSetView& points, ByteSink& sink, const EncodeOptions& options) {
-  checkOptions(points, options);
-  EncodeReport report;
-  report.method = options.method.value_or(Method::Kd);
-  const geometry::GeometryMethod* method = geometry::findGeometryMethod(report.method);
-  if (method == nullptr) {
-    throw Error(ErrorCode::InvalidArgument, "this version has no method number " +
-                                                std::to_string(static_cast<int>(report.method)));
-  }
-
+  refuseArrays(points);
+  planCoding(options, points.size());  // wishes that cannot be met are refused before any work
   ProgressScale fitting(options.progress, 0, kGridShare);
   const ProgressCallback fittingProgress = [&fitting](double share) {
     fitting.report(share);
     return true;
   };
-  GridFit fit = fitGrid(points, options.grid, fittingProgress);
+  const GridFit fit = fitGrid(points, options.grid, fittingProgress);
+  const CodingPlan plan = planCoding(options, fit.points.size());
+  EncodeReport report;
+  report.method = plan.method->id();
   report.grid = fit.grid;
   report.points = fit.points.size();
   report.dropped = fit.dropped;
   report.exact = fit.exact;
   report.maxError = fit.maxError;
-  report.layers = chooseLayers(report.points, options.layers);
+  report.layers = plan.layers;
 
   ProgressScale coding(options.progress, kGridShare, 1);
-  const auto total = static_cast<double>(report.points);
-  const geometry::PointProgress progress = [&coding, total](std::uint64_t done) {
-    coding.report(static_cast<double>(done) / total);
-  };
   coding.report(0);
   container::ContainerWriter writer(sink, options.layout, report.grid, report.layers);
-  if (report.points > 0) {
-    const geometry::TileInput tile = wholeTile(fit, report.layers);
-    geometry::EncodedTile coded = method->encode(tile, progress);
-    if (options.wantOrder) {
-      report.order.assign(coded.order.begin(), coded.order.end());
-      if (!fit.sourceIndex.empty()) {
-        for (std::uint64_t& i : report.order) i = fit.sourceIndex[i];
-      }
-    }
-    addTile(writer, tile, *method, std::move(coded), report);
-  }
+  SetEncoder(fit, plan, options, report).run(writer, coding);
   writer.finish();
   report.fileBytes = writer.bytesWritten();
   coding.report(1);

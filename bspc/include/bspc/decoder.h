@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -55,6 +56,20 @@ struct OpenOptions {
   bool allowPartial = false;
 };
 
+/// A part of space in the units of the data; its faces belong to it.
+struct Box {
+  std::array<double, 3> lower{};
+  std::array<double, 3> upper{};
+};
+
+/// What a decoding reads.
+struct QueryCost {
+  std::uint64_t tiles = 0;
+  std::uint64_t points = 0;  ///< in those tiles up to the level; those outside a box count
+  std::uint64_t bytes = 0;   ///< of the file, its head and index among them
+  unsigned level = 0;
+};
+
 struct DecodeOptions {
   /// Decode layers 0 … level only; empty: all that are there.
   std::optional<unsigned> level;
@@ -64,6 +79,10 @@ struct DecodeOptions {
   /// Fill DecodedPoints::cellIds with the BSP cell of this level that each point lies in; a level
   /// finer than the decoded one is an error.
   std::optional<unsigned> cellLevel;
+  /// Only the points (of a coarse level: the representatives) whose coordinates lie in the box;
+  /// only tiles that touch it are read.
+  std::optional<Box> box;
+  unsigned threads = 0;  ///< 0: as many as the machine has; the result does not depend on it
   ProgressCallback progress;
 };
 
@@ -89,9 +108,19 @@ class Decoder {
 
   const FileInfo& info() const;
 
+  /// Called with the points of one tile after the other. Ids of cells count through the file.
+  using TileVisitor = std::function<void(DecodedPoints&& points)>;
+
   /// Decodes points. Every block that is read is checked against its checksum, a whole tile also
   /// against the checksum of its decoded content. May be called again with other options.
   DecodedPoints decode(const DecodeOptions& options = {});
+
+  /// The same, tile by tile, so that memory stays bounded however large the file is. Thinning to
+  /// maxPoints then is done in each tile for its share.
+  void decodeTiles(const DecodeOptions& options, const TileVisitor& visit);
+
+  /// What decode() would read, from the index alone.
+  QueryCost cost(const DecodeOptions& options) const;
 
  private:
   class Impl;

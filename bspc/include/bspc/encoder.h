@@ -26,7 +26,14 @@ constexpr unsigned kMaxLayers = 32;
 struct EncodeOptions {
   GridRequest grid;
   std::optional<Method> method;  ///< empty: the encoder's choice
-  unsigned layers = 0;           ///< 1 … kMaxLayers; 0: by the number of points, 1 below 4,096
+  /// How much time smallness is worth, 1 (quickest) to 9 (smallest), for methods that have a
+  /// choice; empty: the encoder's choice. With a method that has none, it is an error.
+  std::optional<unsigned> effort;
+  /// Most points of a tile; 0: as many as suit the method. Smaller tiles make smaller boxes cheaper
+  /// to read and the file larger.
+  std::uint64_t tilePoints = 0;
+  unsigned threads = 0;  ///< 0: as many as the machine has; the file does not depend on it
+  unsigned layers = 0;   ///< 1 … kMaxLayers; 0: by the number of points, 1 below 4,096
   Layout layout = Layout::Progressive;
   bool wantOrder = false;  ///< fill EncodeReport::order
   ProgressCallback progress;

@@ -5,18 +5,14 @@
 
 #include "bspc/error.h"
 #include "container/block.h"
+#include "saturating.h"
 
 namespace bspc::container {
 
 namespace {
 
-/// Sizes in a file can be any number: sums stop at the top instead of wrapping round.
-std::uint64_t saturatingAdd(std::uint64_t a, std::uint64_t b) {
-  const std::uint64_t sum = a + b;
-  return sum < a ? std::numeric_limits<std::uint64_t>::max() : sum;
-}
-
 std::uint64_t saturatingChunkSize(std::uint64_t payload) {
+  if (payload == kNoChunk) return 0;
   constexpr std::uint64_t kMaxChecksum = 8;
   return payload > std::numeric_limits<std::uint64_t>::max() - kMaxChecksum
              ? std::numeric_limits<std::uint64_t>::max()
@@ -38,6 +34,7 @@ ContainerReader::ContainerReader(std::shared_ptr<ByteSource> source, const OpenO
   }
   ByteReader in(block.content, "the head", block.contentOffset);
   head_ = readHead(in, options.limits);
+  overheadBytes_ = block.end;
   if (head_.streaming) {
     openStreaming(block.end, options);
   } else {
@@ -162,6 +159,7 @@ bool ContainerReader::readIndex(std::uint64_t firstTile, const DecodeLimits& lim
     throw Error(ErrorCode::Corrupt, "the tiles of the index do not fit in front of it");
   }
   readTrailingBlocks(offset, indexOffset);
+  overheadBytes_ += size - indexOffset;
   return true;
 }
 
@@ -220,6 +218,19 @@ void ContainerReader::readTrailingBlocks(std::uint64_t offset, std::uint64_t end
 
 std::string ContainerReader::chunkName(std::size_t tile, std::size_t column) const {
   return "layer " + std::to_string(column) + " of tile " + std::to_string(tile);
+}
+
+std::uint64_t ContainerReader::bytesOfTile(std::size_t tile, unsigned level) const {
+  std::uint64_t bytes = 0;
+  if (head_.streaming) {
+    ByteWriter record;
+    writeTileRecord(record, head_.tiles[tile]);
+    bytes = blockSize(record.data().size());
+  }
+  for (unsigned l = 0; l <= level; ++l) {
+    bytes = saturatingAdd(bytes, saturatingChunkSize(head_.tiles[tile].chunkSizes[l]));
+  }
+  return bytes;
 }
 
 Bytes ContainerReader::chunk(std::size_t tile, std::size_t column) const {

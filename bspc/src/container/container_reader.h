@@ -25,6 +25,11 @@ class ContainerReader {
   /// Tiles were lost at the end (streaming layout, cut short).
   bool tilesMissing() const { return tilesMissing_; }
 
+  /// Bytes that were read when the file was opened: its head and index.
+  std::uint64_t overheadBytes() const { return overheadBytes_; }
+  /// Bytes of a tile up to a level, checksums among them.
+  std::uint64_t bytesOfTile(std::size_t tile, unsigned level) const;
+
   /// The payload of a chunk, checked.
   Bytes chunk(std::size_t tile, std::size_t column) const;
   /// Streaming layout: checks that the tile's own record is that of the index.
@@ -44,6 +49,7 @@ class ContainerReader {
   FileHead head_;
   unsigned versionMinor_ = 0;
   unsigned wholeLayers_ = 0;
+  std::uint64_t overheadBytes_ = 0;
   bool tilesMissing_ = false;
   std::vector<std::uint64_t> chunkOffsets_;  ///< tile-major, head_.columns() a tile
   std::vector<std::uint64_t> tileBlocks_;    ///< streaming layout: offsets of the tiles' blocks

@@ -26,7 +26,8 @@ void ContainerWriter::putHead() {
 }
 
 void ContainerWriter::addTile(TileRecord record, std::vector<Bytes> chunks) {
-  record.chunkSizes.clear();
+  record.chunkSizes.assign(record.lacking, kNoChunk);
+  record.coarse.insert(record.coarse.begin(), record.lacking, lackingLayer(record.extent));
   for (const Bytes& chunk : chunks) record.chunkSizes.push_back(chunk.size());
   if (head_.streaming) {
     ByteWriter content;
@@ -53,7 +54,10 @@ void ContainerWriter::finish() {
   head_.tiles = std::move(tiles_);
   putHead();
   for (std::size_t column = 0; column < head_.columns(); ++column) {
-    for (std::vector<Bytes>& chunks : chunks_) put(makeChunk(std::move(chunks[column])));
+    for (std::size_t tile = 0; tile < chunks_.size(); ++tile) {
+      const unsigned lacking = head_.tiles[tile].lacking;
+      if (column >= lacking) put(makeChunk(std::move(chunks_[tile][column - lacking])));
+    }
   }
 }
 

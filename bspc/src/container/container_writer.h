@@ -10,7 +10,7 @@
 namespace bspc::container {
 
 /// Writes a file tile by tile, in either layout. Tiles come with their chunks' payloads, one a
-/// column of the chunk table.
+/// column of the chunk table but those that the record lacks.
 class ContainerWriter {
  public:
   ContainerWriter(ByteSink& sink, Layout layout, const Grid& grid, unsigned layers);

@@ -11,7 +11,7 @@ namespace bspc::container {
 namespace {
 
 constexpr unsigned kHasLower = 1U << 6;
-constexpr unsigned kReserved = 1U << 7;
+constexpr unsigned kLacksLayers = 1U << 7;
 constexpr unsigned kVersionBits = 4;
 
 unsigned byteLength(std::uint32_t value) {
@@ -20,9 +20,19 @@ unsigned byteLength(std::uint32_t value) {
 
 }  // namespace
 
+GridPoint middleOfBox(const GridPoint& extent) {
+  return {extent[0] / 2, extent[1] / 2, extent[2] / 2};
+}
+
+geometry::LayerSummary lackingLayer(const GridPoint& extent) {
+  const std::uint32_t longest = *std::max_element(extent.begin(), extent.end());
+  return {1, longest - longest / 2};
+}
+
 void writeTileRecord(ByteWriter& out, const TileRecord& tile) {
   unsigned flags = tile.lower == GridPoint{} ? 0 : kHasLower;
   for (unsigned k = 0; k < 3; ++k) flags |= (byteLength(tile.extent[k]) - 1) << (2 * k);
+  if (tile.lacking > 0) flags |= kLacksLayers;
   out.u8(flags);
   out.varint((std::uint64_t{tile.method} << kVersionBits) | tile.version);
   out.varint(tile.points);
@@ -30,18 +40,20 @@ void writeTileRecord(ByteWriter& out, const TileRecord& tile) {
     for (const std::uint32_t v : tile.lower) out.varint(v);
   }
   for (const std::uint32_t v : tile.extent) out.unsignedLittle(v, byteLength(v));
-  for (const geometry::LayerSummary& layer : tile.coarse) {
-    out.varint(layer.representatives);
-    out.varint(layer.spread);
+  if (tile.lacking > 0) out.varint(tile.lacking);
+  for (std::size_t l = tile.lacking; l < tile.coarse.size(); ++l) {
+    out.varint(tile.coarse[l].representatives);
+    out.varint(tile.coarse[l].spread);
   }
   out.unsignedLittle(tile.contentChecksum, contentChecksumWidth(tile.points));
-  for (const std::uint64_t size : tile.chunkSizes) out.varint(size);
+  for (const std::uint64_t size : tile.chunkSizes) {
+    if (size != kNoChunk) out.varint(size);
+  }
 }
 
 TileRecord readTileRecord(ByteReader& in, unsigned layers, std::size_t columns) {
   TileRecord tile;
   const unsigned flags = in.u8();
-  if ((flags & kReserved) != 0) in.fail("a reserved bit of a tile record is set");
   const std::uint32_t coder = in.varint32();
   tile.method = coder >> kVersionBits;
   tile.version = coder & ((1U << kVersionBits) - 1);
@@ -56,7 +68,12 @@ TileRecord readTileRecord(ByteReader& in, unsigned layers, std::size_t columns) 
       in.fail("the box of a tile leaves the grid");
     }
   }
-  for (unsigned l = 0; l + 1 < layers; ++l) {
+  if ((flags & kLacksLayers) != 0) {
+    tile.lacking = in.varint32();
+    if (tile.lacking == 0 || tile.lacking >= layers) in.fail("a tile lacks no layer or all");
+    tile.coarse.assign(tile.lacking, lackingLayer(tile.extent));
+  }
+  for (unsigned l = tile.lacking; l + 1 < layers; ++l) {
     geometry::LayerSummary layer;
     layer.representatives = in.varint();
     layer.spread = in.varint32();
@@ -67,7 +84,11 @@ TileRecord readTileRecord(ByteReader& in, unsigned layers, std::size_t columns) 
     tile.coarse.push_back(layer);
   }
   tile.contentChecksum = in.unsignedLittle(contentChecksumWidth(tile.points));
-  for (std::size_t c = 0; c < columns; ++c) tile.chunkSizes.push_back(in.varint());
+  for (std::size_t c = 0; c < columns; ++c) {
+    tile.chunkSizes.push_back(c < tile.lacking ? kNoChunk : in.varint());
+    if (c >= tile.lacking && tile.chunkSizes.back() == kNoChunk)
+      in.fail("a chunk of 2^64 - 1 bytes");
+  }
   return tile;
 }
 

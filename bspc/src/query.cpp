@@ -1,0 +1,77 @@
+#include "query.h"
+
+#include <algorithm>
+#include <string>
+
+#include "bspc/error.h"
+#include "saturating.h"
+
+namespace bspc {
+
+namespace {
+
+unsigned finestLevel(const container::ContainerReader& file, const DecodeOptions& options) {
+  const unsigned layers = file.head().layers;
+  if (options.level && *options.level >= layers) {
+    throw Error(ErrorCode::InvalidArgument, "level " + std::to_string(*options.level) +
+                                                " was asked for; the file has levels 0 to " +
+                                                std::to_string(layers - 1));
+  }
+  if (options.level && *options.level >= file.wholeLayers()) {
+    throw Error(ErrorCode::Truncated,
+                "level " + std::to_string(*options.level) +
+                    " was asked for, and the file was cut short after level " +
+                    std::to_string(file.wholeLayers() - 1));
+  }
+  return options.level.value_or(std::max(file.wholeLayers(), 1U) - 1);
+}
+
+std::uint64_t pointsOf(const container::ContainerReader& file,
+                       const std::vector<std::size_t>& tiles, unsigned level) {
+  std::uint64_t points = 0;
+  for (const std::size_t i : tiles) {
+    points = saturatingAdd(points, pointsUpTo(file.tiles()[i], level));
+  }
+  return points;
+}
+
+}  // namespace
+
+std::uint64_t pointsUpTo(const container::TileRecord& tile, unsigned level) {
+  return level < tile.coarse.size() ? tile.coarse[level].representatives : tile.points;
+}
+
+Query planQuery(const container::ContainerReader& file, const DecodeOptions& options) {
+  Query query;
+  query.level = finestLevel(file, options);
+  if (options.box) query.filter.emplace(file.head().grid, *options.box);
+  for (std::size_t i = 0; i < file.tiles().size(); ++i) {
+    const container::TileRecord& tile = file.tiles()[i];
+    GridPoint upper = tile.lower;
+    for (std::size_t k = 0; k < 3; ++k) upper[k] += tile.extent[k];
+    if (!query.filter || query.filter->touches(tile.lower, upper)) query.tiles.push_back(i);
+  }
+  query.points = pointsOf(file, query.tiles, query.level);
+  while (options.maxPoints && query.level > 0 && query.points > *options.maxPoints) {
+    query.points = pointsOf(file, query.tiles, --query.level);
+  }
+  query.thin = options.maxPoints && query.points > *options.maxPoints;
+  if (options.cellLevel && *options.cellLevel > query.level) {
+    throw Error(ErrorCode::InvalidArgument, "cells of level " + std::to_string(*options.cellLevel) +
+                                                " were asked for, and only levels up to " +
+                                                std::to_string(query.level) + " are decoded");
+  }
+  query.complete =
+      query.level + 1 == file.head().layers && !file.tilesMissing() && !query.filter && !query.thin;
+  return query;
+}
+
+std::uint64_t bytesRead(const container::ContainerReader& file, const Query& query) {
+  std::uint64_t bytes = file.overheadBytes();
+  for (const std::size_t i : query.tiles) {
+    bytes = saturatingAdd(bytes, file.bytesOfTile(i, query.level));
+  }
+  return bytes;
+}
+
+}  // namespace bspc

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "box_filter.h"
+#include "bspc/decoder.h"
+#include "container/container_reader.h"
+
+namespace bspc {
+
+/// What a decoding takes from a file: which tiles, up to which level.
+struct Query {
+  std::vector<std::size_t> tiles;
+  std::optional<BoxFilter> filter;
+  unsigned level = 0;
+  std::uint64_t points = 0;  ///< in the tiles up to the level
+  bool complete = true;      ///< every point of the original is among them
+  bool thin = false;         ///< even the coarsest level has more than maxPoints
+};
+
+/// Throws Error (InvalidArgument, Truncated) if the options ask for what is not there.
+Query planQuery(const container::ContainerReader& file, const DecodeOptions& options);
+
+/// Bytes of the file that decoding the query reads.
+std::uint64_t bytesRead(const container::ContainerReader& file, const Query& query);
+
+/// Points, or representatives, that a tile has up to a level.
+std::uint64_t pointsUpTo(const container::TileRecord& tile, unsigned level);
+
+}  // namespace bspc

@@ -1,0 +1,97 @@
+#include "tile_decoder.h"
+
+#include <string>
+
+#include "bspc/error.h"
+#include "container/checksum.h"
+
+namespace bspc {
+
+namespace {
+
+/// What stands for a tile in layers that it lacks.
+geometry::DecodedTile middleOnly(const container::TileRecord& record,
+                                 const DecodeOptions& options) {
+  geometry::DecodedTile tile;
+  tile.points.push_back(container::middleOfBox(record.extent));
+  if (options.wantCounts) tile.counts.push_back(record.points);
+  if (options.cellLevel) tile.cellIds.push_back(0);
+  return tile;
+}
+
+}  // namespace
+
+geometry::DecodedTile TileDecoder::decode(std::size_t tile, unsigned level,
+                                          const DecodeOptions& options, std::uint64_t memory,
+                                          const geometry::PointProgress& progress) {
+  const container::TileRecord& record = file_.tiles()[tile];
+  if (level < record.lacking) return middleOnly(record, options);
+  geometry::DecodedTile decoded = decodePayloads(tile, level, options, memory, progress);
+  check(tile, level, decoded);
+  if (options.cellLevel && *options.cellLevel < record.lacking) {
+    decoded.cellIds.assign(decoded.points.size(), 0);
+  }
+  return decoded;
+}
+
+geometry::DecodedTile TileDecoder::decodePayloads(std::size_t tile, unsigned level,
+                                                  const DecodeOptions& options,
+                                                  std::uint64_t memory,
+                                                  const geometry::PointProgress& progress) {
+  const container::TileRecord& record = file_.tiles()[tile];
+  const geometry::GeometryMethod* method =
+      geometry::findGeometryMethod(static_cast<Method>(record.method));
+  if (method == nullptr || record.version > method->version()) {
+    throw Error(ErrorCode::Unsupported,
+                "tile " + std::to_string(tile) + " is coded by method number " +
+                    std::to_string(record.method) + ", version " + std::to_string(record.version) +
+                    ", which this version does not know; use a newer one");
+  }
+  const std::vector<Bytes> payloads = readPayloads(tile, level);
+  geometry::TileToDecode input;
+  std::uint64_t payloadBytes = 0;
+  for (const Bytes& payload : payloads) {
+    input.payloads.emplace_back(payload);
+    payloadBytes += payload.size();
+  }
+  input.version = record.version;
+  input.points = record.points;
+  input.extent = record.extent;
+  input.layers = file_.head().layers - record.lacking;
+  if (options.cellLevel && *options.cellLevel >= record.lacking) {
+    input.cellLevel = *options.cellLevel - record.lacking;
+  }
+  input.wantCounts = options.wantCounts;
+  input.maxPoints = limits_.points;
+  input.maxBytes = memory > payloadBytes ? memory - payloadBytes : 0;
+  input.maxDepth = limits_.depth;
+  return method->decode(input, progress);
+}
+
+std::vector<Bytes> TileDecoder::readPayloads(std::size_t tile, unsigned level) {
+  const std::lock_guard<std::mutex> lock(reading_);
+  file_.checkTileBlock(tile);
+  std::vector<Bytes> payloads;
+  for (unsigned l = file_.tiles()[tile].lacking; l <= level; ++l) {
+    payloads.push_back(file_.chunk(tile, l));
+  }
+  return payloads;
+}
+
+void TileDecoder::check(std::size_t tile, unsigned level,
+                        const geometry::DecodedTile& decoded) const {
+  const container::TileRecord& record = file_.tiles()[tile];
+  const bool complete = level + 1 == file_.head().layers;
+  const std::uint64_t expected = complete ? record.points : record.coarse[level].representatives;
+  const bool right =
+      decoded.points.size() == expected &&
+      (!complete || container::contentChecksum(decoded.points) == record.contentChecksum);
+  if (right) return;
+  throw Error(ErrorCode::Corrupt,
+              "the points of tile " + std::to_string(tile) + " are not those that were written (" +
+                  std::to_string(decoded.points.size()) + " of " + std::to_string(expected) +
+                  " decoded, or wrong content checksum): the file is damaged, or this machine "
+                  "does not calculate as it should");
+}
+
+}  // namespace bspc

@@ -1,0 +1,59 @@
+#include "tile_encoder.h"
+
+#include <algorithm>
+
+#include "container/checksum.h"
+
+namespace bspc {
+
+namespace {
+
+geometry::TileInput describe(Span<const GridPoint> points) {
+  geometry::TileInput tile;
+  tile.points = points;
+  tile.lower = points[0];
+  GridPoint upper = points[0];
+  for (const GridPoint& p : points) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      tile.lower[k] = std::min(tile.lower[k], p[k]);
+      upper[k] = std::max(upper[k], p[k]);
+    }
+  }
+  for (std::size_t k = 0; k < 3; ++k) tile.extent[k] = upper[k] - tile.lower[k];
+  return tile;
+}
+
+std::uint64_t checksumInOrder(const geometry::TileInput& tile,
+                              const std::vector<std::uint32_t>& order) {
+  std::vector<GridPoint> decoded;
+  decoded.reserve(order.size());
+  for (const std::uint32_t i : order) {
+    GridPoint p = tile.points[i];
+    for (std::size_t k = 0; k < 3; ++k) p[k] -= tile.lower[k];
+    decoded.push_back(p);
+  }
+  return container::contentChecksum(decoded);
+}
+
+}  // namespace
+
+FinishedTile TileEncoder::encode(Span<const GridPoint> points,
+                                 const geometry::PointProgress& progress) const {
+  geometry::TileInput tile = describe(points);
+  tile.layers = layers_;
+  tile.wishes = wishes_;
+  geometry::EncodedTile coded = method_.encode(tile, progress);
+  FinishedTile finished;
+  finished.record.method = static_cast<unsigned>(method_.id());
+  finished.record.version = method_.version();
+  finished.record.points = points.size();
+  finished.record.lower = tile.lower;
+  finished.record.extent = tile.extent;
+  finished.record.coarse = std::move(coded.coarse);
+  finished.record.contentChecksum = checksumInOrder(tile, coded.order);
+  finished.chunks = std::move(coded.layers);
+  finished.order = std::move(coded.order);
+  return finished;
+}
+
+}  // namespace bspc
