@@ -70,8 +70,7 @@ class Decoder::Impl {
  private:
   void decodeQuery(const Query& query, const DecodeOptions& options,
                    const std::function<std::uint64_t()>& bytesInUse, const TileVisitor& visit);
-  DecodedPoints place(std::size_t tile, const Query& query, const DecodeOptions& options,
-                      geometry::DecodedTile decoded) const;
+  DecodedPoints place(const Query& query, std::size_t index, geometry::DecodedTile decoded) const;
 
   container::ContainerReader file_;
   FileInfo info_;
@@ -84,9 +83,9 @@ QueryCost Decoder::Impl::cost(const DecodeOptions& options) const {
   return {query.tiles.size(), query.points, bytesRead(file_, query), query.level};
 }
 
-/// Moves a decoded tile to its place in the file, and leaves what the query is about.
-DecodedPoints Decoder::Impl::place(std::size_t tile, const Query& query,
-                                   const DecodeOptions& options,
+/// Moves the decoded tile of that index in the query to its place in the file, and leaves what the
+/// query is about.
+DecodedPoints Decoder::Impl::place(const Query& query, std::size_t index,
                                    geometry::DecodedTile decoded) const {
   DecodedPoints points;
   points.points = std::move(decoded.points);
@@ -94,19 +93,13 @@ DecodedPoints Decoder::Impl::place(std::size_t tile, const Query& query,
   points.cellIds = std::move(decoded.cellIds);
   points.level = query.level;
   points.complete = query.complete;
-  const GridPoint& lower = file_.tiles()[tile].lower;
+  const GridPoint& lower = file_.tiles()[query.tiles[index]].lower;
   if (lower != GridPoint{}) {
     for (GridPoint& p : points.points) {
       for (std::size_t k = 0; k < 3; ++k) p[k] += lower[k];
     }
   }
-  if (options.cellLevel && tile > 0) {
-    std::uint64_t before = 0;
-    for (std::size_t i = 0; i < tile; ++i) {
-      before = saturatingAdd(before, pointsUpTo(file_.tiles()[i], *options.cellLevel));
-    }
-    for (std::uint64_t& id : points.cellIds) id += before;
-  }
+  for (std::uint64_t& id : points.cellIds) id += query.firstCells[index];
   if (query.filter) query.filter->apply(points);
   return points;
 }
@@ -125,9 +118,9 @@ void Decoder::Impl::decodeQuery(const Query& query, const DecodeOptions& options
   const auto produce = [&](std::size_t i) {
     const std::uint64_t used = bytesInUse();
     const std::uint64_t free = limits_.memoryBytes > used ? limits_.memoryBytes - used : 0;
-    const std::size_t tile = query.tiles[i];
-    return place(tile, query, options,
-                 tileDecoder_.decode(tile, query.level, options, free / shares, progress.piece()));
+    return place(
+        query, i,
+        tileDecoder_.decode(query.tiles[i], query.level, options, free / shares, progress.piece()));
   };
   OrderedParallel<DecodedPoints>(query.tiles.size(), threads, produce)
       .run([&](std::size_t /*i*/, DecodedPoints points) { visit(std::move(points)); },

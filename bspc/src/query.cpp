@@ -61,6 +61,16 @@ Query planQuery(const container::ContainerReader& file, const DecodeOptions& opt
                                                 " were asked for, and only levels up to " +
                                                 std::to_string(query.level) + " are decoded");
   }
+  if (options.cellLevel) {
+    std::uint64_t cells = 0;
+    std::size_t next = 0;
+    for (const std::size_t tile : query.tiles) {
+      for (; next < tile; ++next) {
+        cells = saturatingAdd(cells, pointsUpTo(file.tiles()[next], *options.cellLevel));
+      }
+      query.firstCells.push_back(cells);
+    }
+  }
   query.complete =
       query.level + 1 == file.head().layers && !file.tilesMissing() && !query.filter && !query.thin;
   return query;

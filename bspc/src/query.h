@@ -14,6 +14,7 @@ namespace bspc {
 struct Query {
   std::vector<std::size_t> tiles;
   std::optional<BoxFilter> filter;
+  std::vector<std::uint64_t> firstCells;  ///< of each of them, if cells are asked for
   unsigned level = 0;
   std::uint64_t points = 0;  ///< in the tiles up to the level
   bool complete = true;      ///< every point of the original is among them
