@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "bspc/encoder.h"
@@ -9,8 +10,15 @@
 
 namespace bspc::container {
 
+/// Gives the payload of a tile's chunk in a column.
+using ChunkSource = std::function<Bytes(std::size_t tile, std::size_t column)>;
+
+/// Writes a whole file in the progressive layout; head.tiles has the sizes of all chunks. Asks for
+/// each chunk that there is, column by column. Returns the bytes written.
+std::uint64_t writeProgressive(ByteSink& sink, const FileHead& head, const ChunkSource& chunks);
+
 /// Writes a file tile by tile, in either layout. Tiles come with their chunks' payloads, one a
-/// column of the chunk table but those that the record lacks.
+/// column of the chunk table but those of layers that the record lacks.
 class ContainerWriter {
  public:
   ContainerWriter(ByteSink& sink, Layout layout, const Grid& grid, unsigned layers);
@@ -25,7 +33,6 @@ class ContainerWriter {
 
  private:
   void put(ByteView bytes);
-  void putHead();
 
   ByteSink& sink_;
   FileHead head_;

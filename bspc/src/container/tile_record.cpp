@@ -29,6 +29,12 @@ geometry::LayerSummary lackingLayer(const GridPoint& extent) {
   return {1, longest - longest / 2};
 }
 
+void TileRecord::addLacking(unsigned layers) {
+  lacking += layers;
+  coarse.insert(coarse.begin(), layers, lackingLayer(extent));
+  chunkSizes.insert(chunkSizes.begin(), layers, kNoChunk);
+}
+
 void writeTileRecord(ByteWriter& out, const TileRecord& tile) {
   unsigned flags = tile.lower == GridPoint{} ? 0 : kHasLower;
   for (unsigned k = 0; k < 3; ++k) flags |= (byteLength(tile.extent[k]) - 1) << (2 * k);

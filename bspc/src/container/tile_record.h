@@ -23,6 +23,9 @@ struct TileRecord {
   std::uint64_t contentChecksum = 0;
   /// Payload bytes, a column of the chunk table each; kNoChunk for those of lacking layers.
   std::vector<std::uint64_t> chunkSizes;
+
+  /// Puts so many layers that the tile has not in front of its own.
+  void addLacking(unsigned layers);
 };
 
 /// In TileRecord::chunkSizes: there is no chunk.
