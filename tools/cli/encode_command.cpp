@@ -29,6 +29,8 @@ struct EncodeArguments {
   unsigned bits = 0;
   double precision = 0;
   unsigned layers = 0;
+  std::uint64_t tilePoints = 0;
+  unsigned threads = 0;
   bool positionsOnly = false;
   bool dropNonFinite = false;
   bool force = false;
@@ -57,6 +59,8 @@ EncodeOptions encodeOptions(const EncodeArguments& args) {
   EncodeOptions options;
   options.grid = gridRequest(args);
   options.layers = args.layers;
+  options.tilePoints = args.tilePoints;
+  options.threads = args.threads;
   if (!args.method.empty()) options.method = methodFromName(args.method);
   // To a pipe the index goes last, so that a reader of the pipe sees tiles as they come.
   const std::string layout =
@@ -140,6 +144,14 @@ void addEncodeCommand(CLI::App& app) {
   command->add_option("--layers", args->layers, "Layers of detail, 1 to 32 (default: by size)")
       ->option_text("N")
       ->check(CLI::Range(1U, kMaxLayers))
+      ->group("Coding");
+  command
+      ->add_option("--tile-points", args->tilePoints, "Most points of a tile (default: by method)")
+      ->option_text("N")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{0xFFFFFFFF}))
+      ->group("Coding");
+  command->add_option("--threads", args->threads, "Threads (default: as many as the machine has)")
+      ->option_text("N")
       ->group("Coding");
   command->add_option("--layout", args->layout, "Index in front (the default) or at the end")
       ->option_text("progressive|streaming")

@@ -22,6 +22,7 @@ struct VerifyArguments {
   std::string against;
   std::string from;
   bool dropNonFinite = false;
+  unsigned threads = 0;
   bool quiet = false;
 };
 
@@ -71,6 +72,7 @@ void runVerify(const VerifyArguments& args) {
     ProgressBar bar("verifying", args.quiet);
     DecodeOptions options;
     options.progress = bar.callback();
+    options.threads = args.threads;
     decoded = naming(input.name(), [&] { return decoder.decode(options); });
   }
   std::string result = "every checksum holds, " + withCommas(decoded.points.size()) + " points";
@@ -92,6 +94,8 @@ void addVerifyCommand(CLI::App& app) {
   command->add_option("--from", args->from, "Format of that model where its name does not tell");
   command->add_flag("--drop-nonfinite", args->dropNonFinite,
                     "Leave out the model's points with NaN or infinite coordinates");
+  command->add_option("--threads", args->threads, "Threads (default: as many as the machine has)")
+      ->option_text("N");
   command->add_flag("-q,--quiet", args->quiet, "Print nothing but errors");
   command->callback([args] { runVerify(*args); });
   command->footer(

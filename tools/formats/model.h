@@ -47,4 +47,17 @@ struct ModelView {
   std::vector<PointColumn> columns;
 };
 
+/// A column that is to be written, and the greatest number in it.
+struct ColumnLayout {
+  std::string name;
+  std::uint64_t greatest = 0;
+};
+
+/// What has to be known of a model before its first point is written.
+struct ModelLayout {
+  ScalarType type = ScalarType::Float32;
+  std::uint64_t points = 0;
+  std::vector<ColumnLayout> columns;
+};
+
 }  // namespace bspc::formats

@@ -6,30 +6,14 @@
 #include <utility>
 
 #include "formats/input_buffer.h"
+#include "formats/model_writer.h"
 #include "formats/obj_reader.h"
-#include "formats/obj_writer.h"
 #include "formats/off_reader.h"
-#include "formats/off_writer.h"
-#include "formats/output_buffer.h"
 #include "formats/ply_reader.h"
-#include "formats/ply_writer.h"
 #include "formats/wording.h"
 #include "formats/xyz_reader.h"
-#include "formats/xyz_writer.h"
 
 namespace bspc::formats {
-
-namespace {
-
-void requireWholeColumns(const ModelView& model) {
-  for (const PointColumn& column : model.columns) {
-    if (column.values.size() == model.points.size()) continue;
-    throw FormatError("column " + quoted(column.name) + " has " + grouped(column.values.size()) +
-                      " values for " + grouped(model.points.size()) + " points");
-  }
-}
-
-}  // namespace
 
 std::optional<Format> formatFromPath(std::string_view path) {
   constexpr std::array<std::pair<std::string_view, Format>, 7> kEndings{{
@@ -68,26 +52,14 @@ Model readModel(std::istream& in, Format format, const ProgressCallback& progres
 
 void writeModel(std::ostream& out, Format format, const ModelView& model,
                 const ProgressCallback& progress) {
-  requireWholeColumns(model);
-  OutputBuffer output(out, progress);
-  switch (format) {
-    case Format::Ply:
-      writePly(output, model);
-      break;
-    case Format::Obj:
-      writeObj(output, model);
-      break;
-    case Format::Off:
-      writeOff(output, model);
-      break;
-    case Format::Xyz:
-      writeXyz(output, model);
-      break;
-    case Format::Csv:
-      writeCsv(output, model);
-      break;
+  ModelLayout layout{model.points.type(), model.points.size(), {}};
+  for (const PointColumn& column : model.columns) {
+    const auto* const greatest = std::max_element(column.values.begin(), column.values.end());
+    layout.columns.push_back({column.name, greatest == column.values.end() ? 0 : *greatest});
   }
-  output.finish();
+  ModelWriter writer(out, format, std::move(layout), progress);
+  writer.append(model);
+  writer.finish();
 }
 
 }  // namespace bspc::formats

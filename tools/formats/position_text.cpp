@@ -23,7 +23,7 @@ void appendPosition(std::string& text, const PointSetView& points, std::uint64_t
   });
 }
 
-void requireNoColumns(const ModelView& model, const char* format) {
+void requireNoColumns(const ModelLayout& model, const char* format) {
   if (model.columns.empty()) return;
   throw FormatError("an " + std::string(format) + " file has no place for " +
                     quoted(model.columns.front().name) + "; PLY, XYZ and CSV files do");

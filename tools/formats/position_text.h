@@ -21,7 +21,7 @@ void appendPosition(std::string& text, const PointSetView& points, std::uint64_t
                     char separator);
 
 /// Throws FormatError if the model has columns, which `format` has no place for.
-void requireNoColumns(const ModelView& model, const char* format);
+void requireNoColumns(const ModelLayout& model, const char* format);
 
 /// Writes one line a point: `prefix`, its coordinates, its values of the columns.
 void writePositionLines(OutputBuffer& out, const ModelView& model, const char* prefix,
