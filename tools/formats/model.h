@@ -19,16 +19,21 @@ class FormatError : public std::runtime_error {
   explicit FormatError(const std::string& message) : std::runtime_error(message) {}
 };
 
-/// A model that was read from a file: its positions, and the names of what else the file holds.
-struct Model {
+/// What is known of a model file beside where its points are.
+struct ModelInfo {
+  /// The type of the positions.
   ScalarType type = ScalarType::Float32;
-  /// Three numbers of `type` a point, packed, in the byte order of this machine.
-  std::vector<std::uint8_t> positions;
   /// What the file holds beside positions, as phrases: `vertex property "red" (uint8)`,
   /// "5,660 faces".
   std::vector<std::string> otherContent;
   /// Texts of the comment and obj_info lines of a PLY header.
   std::vector<std::string> comments;
+};
+
+/// A model that was read from a file.
+struct Model : ModelInfo {
+  /// Three numbers of `type` a point, packed, in the byte order of this machine.
+  std::vector<std::uint8_t> positions;
 
   std::uint64_t size() const { return positions.size() / (3 * scalarSize(type)); }
   /// Views the positions; the model must outlive the view.

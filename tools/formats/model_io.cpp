@@ -34,20 +34,39 @@ std::optional<Format> formatFromPath(std::string_view path) {
   return found->second;
 }
 
-Model readModel(std::istream& in, Format format, const ProgressCallback& progress) {
+std::unique_ptr<PointStream> openPointStream(std::istream& in, Format format,
+                                             const ProgressCallback& progress) {
   InputBuffer input(in, progress);
   switch (format) {
     case Format::Ply:
-      return readPly(input);
+      return openPly(std::move(input));
     case Format::Obj:
-      return readObj(input);
+      return openObj(std::move(input));
     case Format::Off:
-      return readOff(input);
+      return openOff(std::move(input));
     case Format::Xyz:
     case Format::Csv:
-      return readXyz(input);
+      return openXyz(std::move(input));
   }
   throw FormatError("there is no reader for this format");
+}
+
+Model readModel(std::istream& in, Format format, const ProgressCallback& progress) {
+  constexpr std::size_t kBlock = std::size_t{1} << 16;
+  const std::unique_ptr<PointStream> points = openPointStream(in, format, progress);
+  const std::size_t pointBytes = 3 * scalarSize(points->info().type);
+  Model model;
+  // One block more: the end shows only when less than a block comes.
+  model.positions.reserve((points->reservable() + kBlock) * pointBytes);
+  for (bool more = true; more;) {
+    const std::size_t size = model.positions.size();
+    model.positions.resize(size + kBlock * pointBytes);
+    const std::size_t got = points->read(model.positions.data() + size, kBlock);
+    model.positions.resize(size + got * pointBytes);
+    more = got == kBlock;
+  }
+  static_cast<ModelInfo&>(model) = points->info();
+  return model;
 }
 
 void writeModel(std::ostream& out, Format format, const ModelView& model,

@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <iosfwd>
+#include <memory>
 #include <optional>
 #include <string_view>
 
 #include "bspc/progress.h"
 #include "formats/model.h"
+#include "formats/point_stream.h"
 
 namespace bspc::formats {
 
@@ -15,8 +17,13 @@ enum class Format : std::uint8_t { Ply, Obj, Off, Xyz, Csv };
 /// The format that the ending of a file name says, in letters of any case; ".ply" alone will do.
 std::optional<Format> formatFromPath(std::string_view path);
 
-/// Reads a whole model from a stream opened in binary mode, which need not be seekable. Throws
-/// FormatError, or Error(Cancelled) once `progress` asks to stop.
+/// Opens a stream that is in binary mode, which need not be seekable and must outlive what is
+/// returned, as a model to be read in pieces. Throws FormatError, or Error(Cancelled) once
+/// `progress` asks to stop.
+std::unique_ptr<PointStream> openPointStream(std::istream& in, Format format,
+                                             const ProgressCallback& progress = {});
+
+/// Reads a whole model; the rest is as with openPointStream(), through which it reads.
 Model readModel(std::istream& in, Format format, const ProgressCallback& progress = {});
 
 /// Writes a model to a stream opened in binary mode. Throws FormatError if the format cannot hold

@@ -12,25 +12,37 @@ namespace {
 
 /// Tokens are read without regard to line ends: elements that some writer wrapped are read, and a
 /// number too many or too few shows at the end of the data.
-class AsciiBody {
+class AsciiBody : public PlyBody {
  public:
-  AsciiBody(TextScanner& text, const PlyHeader& header, std::vector<std::uint8_t>& positions)
-      : text_(text), header_(header), positions_(positions), axes_(plyAxes(header)) {}
+  AsciiBody(TextScanner& text, const PlyHeader& header)
+      : text_(text), header_(header), axes_(plyAxes(header)) {}
 
-  void read() {
-    for (std::size_t e = 0; e < header_.elements.size(); ++e) {
-      element_ = &header_.elements[e];
-      // Without properties there is nothing to read, however many elements are claimed.
-      if (element_->properties.empty()) continue;
-      const bool isVertex = e == header_.vertexElement;
-      for (index_ = 0; index_ < element_->count; ++index_) {
-        if (isVertex) {
-          readVertex();
+  void skip(const PlyElement& element) override {
+    element_ = &element;
+    // Without properties there is nothing to read, however many elements are claimed.
+    if (element.properties.empty()) return;
+    for (index_ = 0; index_ < element.count; ++index_) {
+      for (const PlyProperty& property : element.properties) skipProperty(property);
+    }
+  }
+
+  void readVertices(std::uint64_t first, std::size_t count, std::uint8_t* positions) override {
+    const std::size_t size = scalarSize(header_.positionType);
+    element_ = &header_.vertices();
+    for (std::size_t i = 0; i < count; ++i) {
+      index_ = first + i;
+      for (std::size_t p = 0; p < element_->properties.size(); ++p) {
+        const PlyProperty& property = element_->properties[p];
+        if (axes_[p] < 3) {
+          readCoordinate(property, positions + (3 * i + axes_[p]) * size);
         } else {
-          for (const PlyProperty& property : element_->properties) skipProperty(property);
+          skipProperty(property);
         }
       }
     }
+  }
+
+  void requireEnd() override {
     std::string_view token;
     if (text_.nextTokenOfAnyLine(token)) {
       text_.fail("trailing data after the last element: " + quoted(token));
@@ -38,20 +50,6 @@ class AsciiBody {
   }
 
  private:
-  void readVertex() {
-    const std::size_t size = scalarSize(header_.positionType);
-    std::array<std::uint8_t, 24> point{};
-    for (std::size_t p = 0; p < element_->properties.size(); ++p) {
-      const PlyProperty& property = element_->properties[p];
-      if (axes_[p] < 3) {
-        readCoordinate(property, point.data() + axes_[p] * size);
-      } else {
-        skipProperty(property);
-      }
-    }
-    positions_.insert(positions_.end(), point.data(), point.data() + 3 * size);
-  }
-
   void readCoordinate(const PlyProperty& property, std::uint8_t* to) {
     std::uint64_t bytes = 0;
     readNumber(property.type, property, &bytes);
@@ -100,7 +98,6 @@ class AsciiBody {
 
   TextScanner& text_;
   const PlyHeader& header_;
-  std::vector<std::uint8_t>& positions_;
   std::vector<std::size_t> axes_;
   const PlyElement* element_ = nullptr;
   std::uint64_t index_ = 0;
@@ -108,9 +105,8 @@ class AsciiBody {
 
 }  // namespace
 
-void readAsciiPlyBody(TextScanner& text, const PlyHeader& header,
-                      std::vector<std::uint8_t>& positions) {
-  AsciiBody(text, header, positions).read();
+std::unique_ptr<PlyBody> asciiPlyBody(TextScanner& text, const PlyHeader& header) {
+  return std::make_unique<AsciiBody>(text, header);
 }
 
 }  // namespace bspc::formats

@@ -6,11 +6,6 @@
 
 namespace bspc::formats {
 
-void appendPosition(Model& model, const std::array<double, 3>& position) {
-  const auto* bytes = reinterpret_cast<const std::uint8_t*>(position.data());
-  model.positions.insert(model.positions.end(), bytes, bytes + sizeof(position));
-}
-
 void appendPosition(std::string& text, const PointSetView& points, std::uint64_t index,
                     char separator) {
   visitScalar(points.type(), [&](auto zero) {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <string>
 
 #include "formats/model.h"
@@ -13,8 +15,11 @@ namespace bspc::formats {
 /// double was written as.
 constexpr ScalarType kTextType = ScalarType::Float64;
 
-/// Appends a point to a model of type kTextType.
-void appendPosition(Model& model, const std::array<double, 3>& position);
+/// Stores point number `index` of a block whose type is kTextType.
+inline void storePosition(std::uint8_t* positions, std::size_t index,
+                          const std::array<double, 3>& position) {
+  std::memcpy(positions + index * sizeof(position), position.data(), sizeof(position));
+}
 
 /// Appends the three coordinates of point `index`, in the shortest spelling that its type restores.
 void appendPosition(std::string& text, const PointSetView& points, std::uint64_t index,

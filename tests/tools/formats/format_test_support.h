@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
+#include <memory>
 #include <random>
 #include <sstream>
 #include <streambuf>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "formats/model_io.h"
@@ -32,16 +35,41 @@ class PipeBuffer : public std::streambuf {
   std::size_t at_ = 0;
 };
 
-/// Reads the text as a file and as a pipe, which must give the same.
+/// Reads a model in pieces of `count` points.
+inline Model readInPieces(std::istream& in, Format format, std::size_t count) {
+  const std::unique_ptr<PointStream> points = openPointStream(in, format);
+  Model model;
+  std::vector<std::uint8_t> piece(count * 3 * scalarSize(points->info().type));
+  const ScalarType type = points->info().type;
+  std::size_t got = count;
+  while (got == count) {
+    got = points->read(piece.data(), count);
+    const std::size_t bytes = got * piece.size() / count;
+    model.positions.insert(model.positions.end(), piece.data(), piece.data() + bytes);
+  }
+  EXPECT_EQ(points->read(piece.data(), count), 0U);
+  static_cast<ModelInfo&>(model) = points->info();
+  EXPECT_EQ(model.type, type);
+  return model;
+}
+
+/// Reads the text as a file, as a pipe, and in pieces, which must give the same.
 inline Model read(const std::string& text, Format format) {
   std::istringstream file(text);
   Model model = readModel(file, format);
   PipeBuffer buffer(text);
   std::istream pipe(&buffer);
-  const Model piped = readModel(pipe, format);
-  EXPECT_EQ(model.type, piped.type);
-  EXPECT_EQ(model.positions, piped.positions);
-  EXPECT_EQ(model.otherContent, piped.otherContent);
+  std::vector<Model> others{readModel(pipe, format)};
+  for (const std::size_t count : {1, 2, 1000}) {
+    std::istringstream again(text);
+    others.push_back(readInPieces(again, format, count));
+  }
+  for (const Model& other : others) {
+    EXPECT_EQ(model.type, other.type);
+    EXPECT_EQ(model.positions, other.positions);
+    EXPECT_EQ(model.otherContent, other.otherContent);
+    EXPECT_EQ(model.comments, other.comments);
+  }
   return model;
 }
 
