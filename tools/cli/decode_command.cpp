@@ -132,7 +132,7 @@ class Restorer {
 void runDecode(const DecodeArguments& args) {
   const formats::Format format = args.output == "-" && args.to.empty()
                                      ? formats::Format::Ply
-                                     : chooseFormat(args.to, args.output, "--to");
+                                     : chooseOutputFormat(args.to, args.output);
   DecodeOptions options = decodeOptions(args.query);
   options.cellLevel = args.colourLevel;
   options.wantCounts = args.counts;

@@ -101,6 +101,7 @@ void runEncode(const EncodeArguments& args) {
   EncodeOptions options = encodeOptions(args);
   OutputFile output(args.output, args.force);
   const formats::Model model = readModel(args);
+  options.grid.knownLattice = model.lattice;
   StreamSink sink(output.stream());
   EncodeReport report;
   {
@@ -125,7 +126,9 @@ std::string knownMethods() {
 void addEncodeCommand(CLI::App& app) {
   auto args = std::make_shared<EncodeArguments>();
   CLI::App* command = app.add_subcommand("encode", "Compress a model's points to a .bspc file");
-  command->add_option("input", args->input, "Model: PLY, OBJ, OFF, XYZ or CSV; - reads a pipe")
+  command
+      ->add_option("input", args->input,
+                   "Model: PLY, OBJ, OFF, XYZ, CSV, LAS or PCD; - reads a pipe")
       ->required();
   command->add_option("output", args->output, "The .bspc file; - writes to a pipe")->required();
   const auto methods = [](const std::string& name) {
@@ -181,7 +184,7 @@ void addEncodeCommand(CLI::App& app) {
   command->add_flag("--positions-only", args->positionsOnly,
                     "Leave out faces and every property but the positions");
   command->add_option("--from", args->from, "Format of the input where its name does not tell")
-      ->type_name("ply|obj|off|xyz|csv");
+      ->type_name("ply|obj|off|xyz|csv|las|pcd");
   command->add_flag("-f,--force", args->force, "Replace an existing output file");
   command->add_flag("-q,--quiet", args->quiet, "Print nothing but errors");
   command->callback([args] { runEncode(*args); });

@@ -9,16 +9,11 @@
 
 namespace bspc::cli {
 
-formats::Format chooseFormat(const std::string& name, const std::string& path,
-                             const std::string& option) {
-  const std::string spelling = name.empty() ? path : "." + name;
-  const std::optional<formats::Format> format = formats::formatFromPath(spelling);
-  if (format) return *format;
-  throw UsageError(path + ": cannot tell the format from the name; say it with " + option +
-                   " ply, obj, off, xyz or csv");
-}
-
 namespace {
+
+std::optional<formats::Format> formatOf(const std::string& name, const std::string& path) {
+  return formats::formatFromPath(name.empty() ? path : "." + name);
+}
 
 void refuseOtherContent(const std::string& name, const std::vector<std::string>& content) {
   std::string list;
@@ -34,9 +29,26 @@ void refuseOtherContent(const std::string& name, const std::vector<std::string>&
 
 }  // namespace
 
+formats::Format chooseInputFormat(const std::string& name, const std::string& path) {
+  if (const auto format = formatOf(name, path)) return *format;
+  throw UsageError(path + ": cannot tell the format from the name; say it with --from " +
+                   "ply, obj, off, xyz, csv, las or pcd");
+}
+
+formats::Format chooseOutputFormat(const std::string& name, const std::string& path) {
+  const std::string known = "--to ply, obj, off, xyz or csv";
+  const auto format = formatOf(name, path);
+  if (!format) {
+    throw UsageError(path + ": cannot tell the format from the name; say it with " + known);
+  }
+  if (formats::isWritable(*format)) return *format;
+  throw UsageError(path + ": files of this format are read but not written; write another with " +
+                   known);
+}
+
 formats::Model readModelFile(const std::string& path, const std::string& formatName,
                              bool positionsOnly, const ProgressCallback& progress) {
-  const formats::Format format = chooseFormat(formatName, path, "--from");
+  const formats::Format format = chooseInputFormat(formatName, path);
   InputFile input(path);
   try {
     formats::Model model =

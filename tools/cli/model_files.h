@@ -7,9 +7,9 @@
 namespace bspc::cli {
 
 /// The format that `name` spells ("ply", …), or that the ending of `path` says if `name` is empty.
-/// Throws UsageError if neither tells.
-formats::Format chooseFormat(const std::string& name, const std::string& path,
-                             const std::string& option);
+/// Both throw UsageError if neither tells, the second also if the format is not written.
+formats::Format chooseInputFormat(const std::string& name, const std::string& path);
+formats::Format chooseOutputFormat(const std::string& name, const std::string& path);
 
 /// Reads a model file. What a .bspc file cannot hold yet is refused by Error(Unsupported), unless
 /// `positionsOnly` is the user's word that it may be left out. Messages name the file.

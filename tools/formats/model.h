@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "bspc/grid.h"
 #include "bspc/point_set.h"
 #include "bspc/scalar_type.h"
 #include "bspc/span.h"
@@ -28,6 +30,8 @@ struct ModelInfo {
   std::vector<std::string> otherContent;
   /// Texts of the comment and obj_info lines of a PLY header.
   std::vector<std::string> comments;
+  /// A lattice that every position lies on, if the file says one; its bases count for nothing.
+  std::optional<Grid> lattice;
 };
 
 /// A model that was read from a file.

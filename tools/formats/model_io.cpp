@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "formats/input_buffer.h"
+#include "formats/las_reader.h"
 #include "formats/model_writer.h"
 #include "formats/obj_reader.h"
 #include "formats/off_reader.h"
@@ -16,7 +17,7 @@
 namespace bspc::formats {
 
 std::optional<Format> formatFromPath(std::string_view path) {
-  constexpr std::array<std::pair<std::string_view, Format>, 7> kEndings{{
+  constexpr std::array<std::pair<std::string_view, Format>, 9> kEndings{{
       {"ply", Format::Ply},
       {"obj", Format::Obj},
       {"off", Format::Off},
@@ -24,6 +25,9 @@ std::optional<Format> formatFromPath(std::string_view path) {
       {"txt", Format::Xyz},
       {"asc", Format::Xyz},
       {"csv", Format::Csv},
+      {"las", Format::Las},
+      // Its content tells that it is compressed.
+      {"laz", Format::Las},
   }};
   const std::size_t dot = path.rfind('.');
   if (dot == std::string_view::npos) return std::nullopt;
@@ -47,9 +51,13 @@ std::unique_ptr<PointStream> openPointStream(std::istream& in, Format format,
     case Format::Xyz:
     case Format::Csv:
       return openXyz(std::move(input));
+    case Format::Las:
+      return openLas(std::move(input));
   }
   throw FormatError("there is no reader for this format");
 }
+
+bool isWritable(Format format) { return format != Format::Las; }
 
 Model readModel(std::istream& in, Format format, const ProgressCallback& progress) {
   constexpr std::size_t kBlock = std::size_t{1} << 16;

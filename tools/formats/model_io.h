@@ -12,7 +12,7 @@
 
 namespace bspc::formats {
 
-enum class Format : std::uint8_t { Ply, Obj, Off, Xyz, Csv };
+enum class Format : std::uint8_t { Ply, Obj, Off, Xyz, Csv, Las };
 
 /// The format that the ending of a file name says, in letters of any case; ".ply" alone will do.
 std::optional<Format> formatFromPath(std::string_view path);
@@ -25,6 +25,9 @@ std::unique_ptr<PointStream> openPointStream(std::istream& in, Format format,
 
 /// Reads a whole model; the rest is as with openPointStream(), through which it reads.
 Model readModel(std::istream& in, Format format, const ProgressCallback& progress = {});
+
+/// Whether writeModel() knows the format.
+bool isWritable(Format format);
 
 /// Writes a model to a stream opened in binary mode. Throws FormatError if the format cannot hold
 /// it or if the stream fails, Error(Cancelled) once `progress` asks to stop.

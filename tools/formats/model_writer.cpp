@@ -47,6 +47,8 @@ ModelWriter::ModelWriter(std::ostream& out, Format format, ModelLayout layout,
     case Format::Csv:
       writeCsvHeader(out_.text(), layout_);
       break;
+    case Format::Las:
+      throw FormatError("LAS files are read only; write PLY, OBJ, OFF, XYZ or CSV");
   }
 }
 
@@ -66,6 +68,8 @@ void ModelWriter::append(const ModelView& piece) {
     case Format::Csv:
       writePositionLines(out_, piece, "", ',');
       break;
+    case Format::Las:
+      break;  // refused by the constructor
   }
   written_ += piece.points.size();
 }

@@ -10,6 +10,7 @@
 
 #include "bspc/error.h"
 #include "grid/axis_map.h"
+#include "grid/known_lattice.h"
 #include "grid/lattice.h"
 #include "grid/step_choice.h"
 
@@ -208,8 +209,14 @@ std::array<double, 3> quantise(const Coordinates& coordinates, const Ranges& ran
 
 namespace {
 
-Grid automaticGrid(const Coordinates& coordinates, const Ranges& ranges) {
-  if (const auto lattice = detectLattice(coordinates, ranges)) return *lattice;
+Grid automaticGrid(const Coordinates& coordinates, const Ranges& ranges,
+                   const GridRequest& request) {
+  const auto known = request.knownLattice
+                         ? confirmedLattice(*request.knownLattice, coordinates, ranges)
+                         : std::nullopt;
+  const auto lattice = detectLattice(coordinates, ranges);
+  if (known && (!lattice || isCoarser(*known, *lattice, ranges))) return *known;
+  if (lattice) return *lattice;
   if (isFloatingPoint(coordinates.type())) return defaultGrid(coordinates.type(), ranges);
   Grid wholeNumbers;  // which placing the bases will refuse by the axis that is too large
   wholeNumbers.scalarType = coordinates.type();
@@ -233,7 +240,7 @@ Grid chooseGrid(const Coordinates& coordinates, const Ranges& ranges, const Grid
     case GridRequest::Kind::Automatic:
       break;
   }
-  return automaticGrid(coordinates, ranges);
+  return automaticGrid(coordinates, ranges, request);
 }
 
 /// Puts the points on fit.grid.
@@ -262,6 +269,7 @@ void validate(const GridRequest& request) {
   if (request.kind == GridRequest::Kind::Bits) GridRequest::withBits(request.bits);
   if (request.kind == GridRequest::Kind::Precision) GridRequest::withPrecision(request.precision);
   if (request.kind == GridRequest::Kind::Reuse) request.reuse.validate();
+  if (request.knownLattice) request.knownLattice->validate();
 }
 
 Grid emptyGrid(ScalarType type, const GridRequest& request) {

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <cstring>
 #include <memory>
 #include <random>
@@ -35,6 +37,20 @@ class PipeBuffer : public std::streambuf {
   std::size_t at_ = 0;
 };
 
+enum class Order { Little, Big };
+
+/// Appends the bytes of a number in the given order, whatever the machine's.
+template <class T>
+void put(std::string& out, Order order, T value) {
+  std::array<char, sizeof(T)> bytes;
+  std::memcpy(bytes.data(), &value, sizeof(T));
+  const std::uint16_t probe = 1;
+  std::uint8_t first = 0;
+  std::memcpy(&first, &probe, 1);
+  if ((first == 1) != (order == Order::Little)) std::reverse(bytes.begin(), bytes.end());
+  out.append(bytes.data(), bytes.size());
+}
+
 /// Reads a model in pieces of `count` points.
 inline Model readInPieces(std::istream& in, Format format, std::size_t count) {
   const std::unique_ptr<PointStream> points = openPointStream(in, format);
@@ -60,7 +76,7 @@ inline Model read(const std::string& text, Format format) {
   PipeBuffer buffer(text);
   std::istream pipe(&buffer);
   std::vector<Model> others{readModel(pipe, format)};
-  for (const std::size_t count : {1, 2, 1000}) {
+  for (const std::size_t count : {1U, 2U, 1000U}) {
     std::istringstream again(text);
     others.push_back(readInPieces(again, format, count));
   }
@@ -102,8 +118,10 @@ inline void expectInMessage(const std::string& message, const std::vector<std::s
   }
 }
 
-/// Changes, cuts and doubles pieces of a good file: each must be read or refused by FormatError.
-inline void expectNoMutationHarms(const std::string& good, Format format, int mutations) {
+/// Changes, cuts and doubles pieces of a good file: each must be read or refused by FormatError. A
+/// byte of a file becomes at most `bytesOfByte` bytes of positions.
+inline void expectNoMutationHarms(const std::string& good, Format format, int mutations,
+                                  std::size_t bytesOfByte = 24) {
   std::mt19937_64 random(good.size());
   const auto below = [&](std::size_t end) { return static_cast<std::size_t>(random() % end); };
   const std::string snippets[] = {
@@ -132,7 +150,7 @@ inline void expectNoMutationHarms(const std::string& good, Format format, int mu
     try {
       const Model model = readModel(in, format);
       // Memory follows the bytes that there are, not what they claim.
-      EXPECT_LE(model.positions.size(), 24 * (text.size() + 1));
+      EXPECT_LE(model.positions.size(), bytesOfByte * (text.size() + 1));
     } catch (const FormatError& error) {
       ++refused;
       EXPECT_NE(std::string(error.what()), "");
