@@ -38,6 +38,7 @@ EncodeReport encode(const PointSetView& points, ByteSink& sink, const EncodeOpti
   const CodingPlan plan = planCoding(options, fit.points.size());
   EncodeReport report;
   report.method = plan.method->id();
+  report.layout = options.layout;
   report.grid = fit.grid;
   report.points = fit.points.size();
   report.dropped = fit.dropped;

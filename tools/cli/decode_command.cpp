@@ -111,7 +111,7 @@ class Restorer {
     try {
       return {output_.stream(), format_, layoutOf(args_, info, points)};
     } catch (const formats::FormatError& error) {
-      throw OutputError(ErrorCode::Io, output_.name() + ": " + error.what());
+      throw NamedError(ErrorCode::Io, output_.name() + ": " + error.what());
     }
   }
 
@@ -120,7 +120,7 @@ class Restorer {
     try {
       work();
     } catch (const formats::FormatError& error) {
-      throw OutputError(ErrorCode::Io, output_.name() + ": " + error.what());
+      throw NamedError(ErrorCode::Io, output_.name() + ": " + error.what());
     }
   }
 

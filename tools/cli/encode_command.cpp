@@ -6,12 +6,15 @@
 #include "bspc/decoder.h"
 #include "bspc/encoder.h"
 #include "bspc/error.h"
+#include "bspc/stream_encoder.h"
 #include "cli/commands.h"
 #include "cli/input_file.h"
+#include "cli/interrupts.h"
 #include "cli/model_files.h"
 #include "cli/naming.h"
 #include "cli/output_file.h"
 #include "cli/progress_bar.h"
+#include "cli/scratch_file.h"
 #include "cli/text.h"
 #include "cli/usage_error.h"
 
@@ -31,6 +34,7 @@ struct EncodeArguments {
   unsigned layers = 0;
   std::uint64_t tilePoints = 0;
   unsigned threads = 0;
+  double memory = 1;
   bool positionsOnly = false;
   bool dropNonFinite = false;
   bool force = false;
@@ -86,28 +90,35 @@ void printReport(const EncodeArguments& args, const std::string& name, const Enc
   }
   std::cerr << "; " << errorText(report.exact, report.maxError) << "; " << methodName(report.method)
             << ", " << gridText(report.grid);
+  const bool wanted = args.layout == "streaming" || args.output == "-";
+  if (report.layout == Layout::Streaming && !wanted) {
+    std::cerr << "; streaming layout, for it takes more than --memory " << args.memory;
+  }
   if (report.dropped > 0) {
     std::cerr << "; " << withCommas(report.dropped) << " non-finite points left out";
   }
   std::cerr << '\n';
 }
 
-formats::Model readModel(const EncodeArguments& args) {
-  ProgressBar bar("reading", args.quiet);
-  return readModelFile(args.input, args.from, args.positionsOnly, bar.callback());
-}
-
 void runEncode(const EncodeArguments& args) {
-  EncodeOptions options = encodeOptions(args);
+  StreamOptions options;
+  options.encoding = encodeOptions(args);
+  options.memoryBytes = static_cast<std::uint64_t>(args.memory * (1 << 30));
+  options.scratch = [] { return std::make_unique<ScratchFile>(); };
   OutputFile output(args.output, args.force);
-  const formats::Model model = readModel(args);
-  options.grid.knownLattice = model.lattice;
   StreamSink sink(output.stream());
   EncodeReport report;
   {
-    ProgressBar bar("encoding", args.quiet);
-    options.progress = bar.callback();
-    report = naming(args.input, [&] { return encode(model.view(), sink, options); });
+    ProgressBar reading("reading", args.quiet);
+    ProgressBar encoding("encoding", args.quiet);
+    ModelPoints points(args.input, args.from, args.positionsOnly, reading.callback());
+    options.encoding.grid.knownLattice = points.info().lattice;
+    options.encoding.progress = [&, draw = encoding.callback()](double share) {
+      if (!points.ended()) return !interrupted();
+      reading.clear();
+      return draw(share);
+    };
+    report = naming(args.input, [&] { return encodeStream(points, sink, options); });
     output.commit();
   }
   if (!args.quiet) printReport(args, output.name(), report);
@@ -138,7 +149,7 @@ void addEncodeCommand(CLI::App& app) {
   const auto positive = [](const std::string& text) {
     double value = 0;
     const bool good = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0;
-    return good ? std::string() : "the precision must be a finite number above 0";
+    return good ? std::string() : "must be a finite number above 0";
   };
   command->add_option("--method", args->method, "How to code positions: " + knownMethods())
       ->type_name("NAME")
@@ -152,6 +163,13 @@ void addEncodeCommand(CLI::App& app) {
       ->add_option("--tile-points", args->tilePoints, "Most points of a tile (default: by method)")
       ->option_text("N")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{0xFFFFFFFF}))
+      ->group("Coding");
+  command
+      ->add_option("--memory", args->memory,
+                   "Memory to use, in GiB (default 1); a larger set goes through a temporary\n"
+                   "file and gets the streaming layout")
+      ->option_text("GIB")
+      ->check(positive)
       ->group("Coding");
   command->add_option("--threads", args->threads, "Threads (default: as many as the machine has)")
       ->option_text("N")

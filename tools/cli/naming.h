@@ -6,8 +6,8 @@
 
 namespace bspc::cli {
 
-/// An error of the output, whose message names it already.
-class OutputError : public Error {
+/// An error whose message names its file already.
+class NamedError : public Error {
  public:
   using Error::Error;
 };
@@ -17,7 +17,7 @@ template <class Work>
 auto naming(const std::string& name, Work work) {
   try {
     return work();
-  } catch (const OutputError&) {
+  } catch (const NamedError&) {
     throw;
   } catch (const Error& error) {
     throw Error(error.code(), name + ": " + error.what());

@@ -43,6 +43,7 @@ struct EncodeOptions {
 struct EncodeReport {
   Grid grid;
   Method method = Method::Kd;
+  Layout layout = Layout::Progressive;
   std::uint64_t points = 0;
   std::uint64_t dropped = 0;  ///< non-finite points left out on request
   std::uint64_t tiles = 0;

@@ -16,8 +16,8 @@ Grid thinnedOut(const Grid& grid, std::size_t axis, std::uint64_t divisor,
   if (divisor < 2 || grid.form != Grid::Form::Affine) return grid;
   Grid coarser = grid;
   coarser.axes[axis].step *= static_cast<double>(divisor);
-  const bool good = std::isfinite(coarser.axes[axis].step) &&
-                    liesOn(coordinates, axis, AxisMap(coarser, axis));
+  const bool good =
+      std::isfinite(coarser.axes[axis].step) && liesOn(coordinates, axis, AxisMap(coarser, axis));
   return good ? coarser : grid;
 }
 

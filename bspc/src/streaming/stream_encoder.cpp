@@ -199,6 +199,7 @@ class LargeSetEncoder {
   void code() {
     const CodingPlan plan = planCoding(options_.encoding, report_.points);
     report_.method = plan.method->id();
+    report_.layout = Layout::Streaming;
     report_.layers = plan.layers;
     container::ContainerWriter writer(sink_, Layout::Streaming, report_.grid, plan.layers);
     ProgressScale coding(options_.encoding.progress, kCut, 1);
