@@ -15,6 +15,8 @@ from command_support import (
     parse_ply,
     read_ply,
     read_points,
+    write_las,
+    write_pcd,
     write_ply,
 )
 
@@ -48,6 +50,11 @@ class Usage(CommandTest):
             ("decode", "a.bspc"),
             ("decode", "a.bspc", "a.unknown"),
             ("decode", "a.bspc", "a.out", "--to", "unknown"),
+            ("decode", "a.bspc", "a.las"),
+            ("decode", "a.bspc", "a.laz"),
+            ("decode", "a.bspc", "a.pcd"),
+            ("decode", "a.bspc", "a.out", "--to", "las"),
+            ("decode", "a.bspc", "-", "--to", "pcd"),
             ("info",),
             ("verify",),
         ):
@@ -178,6 +185,21 @@ class Content(CommandTest):
         self.assertEqual(self.check_other_content("a.off", "face"), corners)
         self.write_bytes("a.obj", b"v 0 0 0\nv 0 1 0\nv 1 0 0\nf 1 2 3\n")
         self.assertEqual(self.check_other_content("a.obj", "face"), corners)
+
+    def test_attributes_of_scans_are_refused_unless_left_out_by_name(self):
+        write_las(self.path("a.las"), [(1, 2, 3), (5, 6, 7)], (1, 1, 1), (0, 0, 0), point_format=2)
+        self.assertEqual(
+            self.check_other_content("a.las", "intensity", "colours"), [(1, 2, 3), (5, 6, 7)]
+        )
+        points = lattice_cloud(20)
+        write_pcd(self.path("a.pcd"), points, height=4)
+        self.assertEqual(self.check_other_content("a.pcd", "4 rows of 5"), sorted(points))
+
+    def test_laz_is_refused_with_the_way_out(self):
+        write_las(self.path("a.laz"), [(1, 2, 3)], (1, 1, 1), (0, 0, 0), mark=128)
+        message = self.refuse("a.laz", "encode", "a.laz", "a.bspc")
+        for piece in ("LAZ", "las2las", "pdal"):
+            self.assertIn(piece, message)
 
     def test_verify_tells_the_original_from_another_model(self):
         points = lattice_cloud(500)

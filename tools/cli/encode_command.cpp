@@ -211,6 +211,7 @@ void addEncodeCommand(CLI::App& app) {
       "  bspc encode scan.ply scan.bspc                    as exact as the data are\n"
       "  bspc encode scan.ply scan.bspc --precision 0.001  to the millimetre, if in metres\n"
       "  bspc encode bunny.off bunny.bspc --bits 12 --positions-only\n"
+      "  bspc encode tile.las tile.bspc --positions-only   exact, at the step of the file\n"
       "  cat scan.ply | bspc encode - - --from ply > scan.bspc");
 }
 

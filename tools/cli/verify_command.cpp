@@ -91,7 +91,8 @@ void addVerifyCommand(CLI::App& app) {
       app.add_subcommand("verify", "Decode a .bspc file and check every byte and point of it");
   command->add_option("file", args->input, "The .bspc file; - reads a pipe")->required();
   command->add_option("--against", args->against, "The model it was made from, to compare with");
-  command->add_option("--from", args->from, "Format of that model where its name does not tell");
+  command->add_option("--from", args->from, "Format of that model where its name does not tell")
+      ->type_name("ply|obj|off|xyz|csv|las|pcd");
   command->add_flag("--drop-nonfinite", args->dropNonFinite,
                     "Leave out the model's points with NaN or infinite coordinates");
   command->add_option("--threads", args->threads, "Threads (default: as many as the machine has)")

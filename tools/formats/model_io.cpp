@@ -10,6 +10,7 @@
 #include "formats/model_writer.h"
 #include "formats/obj_reader.h"
 #include "formats/off_reader.h"
+#include "formats/pcd_reader.h"
 #include "formats/ply_reader.h"
 #include "formats/wording.h"
 #include "formats/xyz_reader.h"
@@ -17,7 +18,7 @@
 namespace bspc::formats {
 
 std::optional<Format> formatFromPath(std::string_view path) {
-  constexpr std::array<std::pair<std::string_view, Format>, 9> kEndings{{
+  constexpr std::array<std::pair<std::string_view, Format>, 10> kEndings{{
       {"ply", Format::Ply},
       {"obj", Format::Obj},
       {"off", Format::Off},
@@ -28,6 +29,7 @@ std::optional<Format> formatFromPath(std::string_view path) {
       {"las", Format::Las},
       // Its content tells that it is compressed.
       {"laz", Format::Las},
+      {"pcd", Format::Pcd},
   }};
   const std::size_t dot = path.rfind('.');
   if (dot == std::string_view::npos) return std::nullopt;
@@ -53,11 +55,13 @@ std::unique_ptr<PointStream> openPointStream(std::istream& in, Format format,
       return openXyz(std::move(input));
     case Format::Las:
       return openLas(std::move(input));
+    case Format::Pcd:
+      return openPcd(std::move(input));
   }
   throw FormatError("there is no reader for this format");
 }
 
-bool isWritable(Format format) { return format != Format::Las; }
+bool isWritable(Format format) { return format != Format::Las && format != Format::Pcd; }
 
 Model readModel(std::istream& in, Format format, const ProgressCallback& progress) {
   constexpr std::size_t kBlock = std::size_t{1} << 16;

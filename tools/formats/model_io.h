@@ -12,7 +12,7 @@
 
 namespace bspc::formats {
 
-enum class Format : std::uint8_t { Ply, Obj, Off, Xyz, Csv, Las };
+enum class Format : std::uint8_t { Ply, Obj, Off, Xyz, Csv, Las, Pcd };
 
 /// The format that the ending of a file name says, in letters of any case; ".ply" alone will do.
 std::optional<Format> formatFromPath(std::string_view path);

@@ -48,7 +48,8 @@ ModelWriter::ModelWriter(std::ostream& out, Format format, ModelLayout layout,
       writeCsvHeader(out_.text(), layout_);
       break;
     case Format::Las:
-      throw FormatError("LAS files are read only; write PLY, OBJ, OFF, XYZ or CSV");
+    case Format::Pcd:
+      throw FormatError("LAS and PCD files are read only; write PLY, OBJ, OFF, XYZ or CSV");
   }
 }
 
@@ -69,6 +70,7 @@ void ModelWriter::append(const ModelView& piece) {
       writePositionLines(out_, piece, "", ',');
       break;
     case Format::Las:
+    case Format::Pcd:
       break;  // refused by the constructor
   }
   written_ += piece.points.size();

@@ -1,9 +1,7 @@
-#include <cstring>
 #include <string>
 
 #include "formats/ply_body.h"
-#include "formats/scalar_convert.h"
-#include "formats/scalar_visit.h"
+#include "formats/scalar_text.h"
 #include "formats/wording.h"
 
 namespace bspc::formats {
@@ -34,7 +32,9 @@ class AsciiBody : public PlyBody {
       for (std::size_t p = 0; p < element_->properties.size(); ++p) {
         const PlyProperty& property = element_->properties[p];
         if (axes_[p] < 3) {
-          readCoordinate(property, positions + (3 * i + axes_[p]) * size);
+          readCoordinate(text_, nextToken(), property.type, header_.positionType,
+                         positions + (3 * i + axes_[p]) * size,
+                         [&property] { return describe(property); });
         } else {
           skipProperty(property);
         }
@@ -50,20 +50,6 @@ class AsciiBody : public PlyBody {
   }
 
  private:
-  void readCoordinate(const PlyProperty& property, std::uint8_t* to) {
-    std::uint64_t bytes = 0;
-    readNumber(property.type, property, &bytes);
-    if (property.type == header_.positionType) {
-      std::memcpy(to, &bytes, scalarSize(property.type));
-      return;
-    }
-    const ScalarSource source{&bytes, property.type, 0, false};
-    if (convertScalars(source, {to, header_.positionType, 0}, 1) == 0) {
-      text_.fail("the number for " + describe(property) + " is not exact as a float64, the type " +
-                 "that x, y and z have in common");
-    }
-  }
-
   void skipProperty(const PlyProperty& property) {
     std::uint64_t bytes = 0;
     if (!property.isList) return readNumber(property.type, property, &bytes);
@@ -79,17 +65,15 @@ class AsciiBody : public PlyBody {
 
   /// Stores the next number as `type` at `to`, which takes eight bytes.
   void readNumber(ScalarType type, const PlyProperty& property, std::uint64_t* to) {
+    readScalar(text_, nextToken(), type, to, [&property] { return describe(property); });
+  }
+
+  std::string_view nextToken() {
     std::string_view token;
     if (!text_.nextTokenOfAnyLine(token)) {
       text_.failAtEnd("the file ends inside " + plyPlace(*element_, index_));
     }
-    visitScalar(type, [&](auto value) {
-      const NumberStatus status = parseNumber(token, value);
-      if (status != NumberStatus::Ok) {
-        text_.failNumber(status, token, !isFloatingPoint(type), describe(property));
-      }
-      std::memcpy(to, &value, sizeof(value));
-    });
+    return token;
   }
 
   static std::string describe(const PlyProperty& property) {

@@ -74,6 +74,24 @@ TEST(PointStream, ABinaryPlyLargerThanItsMemoryIsRead) {
                          std::string(13, '\1'));
 }
 
+TEST(PointStream, ScansLargerThanItsMemoryAreRead) {
+  const auto points = static_cast<std::uint32_t>(kPieces * kPointsOfPiece);
+  std::string las = "LASF" + std::string(20, '\0') + "\1\2" + std::string(68, '\0');
+  test::put(las, test::Order::Little, std::uint16_t{227});
+  test::put(las, test::Order::Little, std::uint32_t{227});
+  las += std::string(5, '\0');
+  test::put(las, test::Order::Little, std::uint16_t{20});
+  test::put(las, test::Order::Little, points);
+  las += std::string(20, '\0');
+  for (int k = 0; k < 3; ++k) test::put(las, test::Order::Little, 1.0);
+  las.resize(227, '\0');
+  expectMemoryStaysSmall(Format::Las, las, std::string(20, '\1'));
+  expectMemoryStaysSmall(
+      Format::Pcd,
+      "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH " + std::to_string(points) + "\nDATA binary\n",
+      std::string(12, '\1'));
+}
+
 TEST(PointStream, TextLargerThanItsMemoryIsRead) {
   expectMemoryStaysSmall(Format::Ply, plyHead("ascii", ""), "1 2 3\n");
   expectMemoryStaysSmall(Format::Xyz, "", "1 2 3\n");
