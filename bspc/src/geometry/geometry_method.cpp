@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "geometry/fast/fast_method.h"
 #include "geometry/kd/kd_method.h"
 
 namespace bspc {
@@ -13,7 +14,7 @@ struct NamedMethod {
   const char* name;
 };
 
-constexpr std::array<NamedMethod, 1> kMethods{{{Method::Kd, "kd"}}};
+constexpr std::array<NamedMethod, 2> kMethods{{{Method::Kd, "kd"}, {Method::Fast, "fast"}}};
 
 }  // namespace
 
@@ -42,9 +43,12 @@ namespace geometry {
 
 const GeometryMethod* findGeometryMethod(Method id) {
   static const KdMethod kd;
+  static const FastMethod fast;
   switch (id) {
     case Method::Kd:
       return &kd;
+    case Method::Fast:
+      return &fast;
   }
   return nullptr;
 }
