@@ -6,6 +6,7 @@
 #include <string>
 
 #include "bspc/error.h"
+#include "geometry/fast/input_order.h"
 #include "geometry/fast/set_coder.h"
 #include "geometry/fast/tile_header.h"
 #include "geometry/fast/tile_sequence.h"
@@ -32,6 +33,12 @@ LayerSummary summaryOf(const TileInput& tile, const std::vector<std::uint32_t>& 
   return summary;
 }
 
+std::vector<std::uint32_t> identity(std::size_t count) {
+  std::vector<std::uint32_t> sequence(count);
+  std::iota(sequence.begin(), sequence.end(), 0U);
+  return sequence;
+}
+
 std::vector<std::uint32_t> sequenceOf(const TileInput& tile) {
   if (tile.layers > 1) {
     std::vector<GridPoint> points(tile.points.begin(), tile.points.end());
@@ -40,9 +47,7 @@ std::vector<std::uint32_t> sequenceOf(const TileInput& tile) {
     }
     return hilbertSequence(points, tile.extent);
   }
-  std::vector<std::uint32_t> sequence(tile.points.size());
-  std::iota(sequence.begin(), sequence.end(), 0U);
-  return sequence;
+  return identity(tile.points.size());
 }
 
 EncodedTile encodeAlongHilbert(const TileInput& tile, const RankedPoints& ranked,
@@ -76,6 +81,40 @@ EncodedTile encodeAlongHilbert(const TileInput& tile, const RankedPoints& ranked
   return result;
 }
 
+std::size_t totalBytes(const EncodedTile& coded) {
+  std::size_t bytes = 0;
+  for (const Bytes& layer : coded.layers) bytes += layer.size();
+  return bytes;
+}
+
+/// Whether the order of the input is worth a try: it is slower to code.
+bool isInputOrderPromising(const RankedPoints& ranked, unsigned effort, const EncodedTile& other) {
+  constexpr std::size_t kFewPoints = 8192;
+  constexpr double kAllowance = 1.1;  // the sample may be worse than the whole
+  const std::size_t points = ranked.coordinates[0].size();
+  if (points <= kFewPoints) return true;
+  if (effort < 3) return false;
+  const double otherBits = 8.0 * static_cast<double>(totalBytes(other));
+  return estimateInInputOrder(ranked) * static_cast<double>(points) < kAllowance * otherBits;
+}
+
+EncodedTile encodeInInputOrder(const TileInput& tile, RankedPoints& ranked) {
+  ranked.header.sequence = Sequence::Input;
+  EncodedTile result;
+  result.order = identity(tile.points.size());
+  const LayerStrides strides(tile.points.size(), tile.layers, ranked.header.ratioBits);
+  for (unsigned layer = 0; layer < tile.layers; ++layer) {
+    container::ByteWriter payload;
+    if (layer == 0) writeHeader(payload, ranked.header, tile.layers);
+    if (strides.inLayer(layer) > 0) payload.bytes(writeInInputOrder(ranked, strides, layer));
+    result.layers.push_back(payload.take());
+    if (layer + 1 < tile.layers) {
+      result.coarse.push_back(summaryOf(tile, result.order, strides, layer));
+    }
+  }
+  return result;
+}
+
 /// Counts and cells of decoded points, which are all of layers 0 … `layer`.
 void describeCells(const TileToDecode& tile, const LayerStrides& strides, unsigned layer,
                    const std::vector<std::uint32_t>& sequence, DecodedTile& out) {
@@ -102,8 +141,13 @@ EncodedTile FastMethod::encode(const TileInput& tile, const PointProgress& progr
                 "method fast codes at most 4,294,967,295 points in one tile, and this set has " +
                     std::to_string(tile.points.size()));
   }
-  const fast::RankedPoints ranked = fast::rankPoints(tile);
-  return fast::encodeAlongHilbert(tile, ranked, progress);
+  fast::RankedPoints ranked = fast::rankPoints(tile);
+  EncodedTile best = fast::encodeAlongHilbert(tile, ranked, progress);
+  if (fast::isInputOrderPromising(ranked, tile.wishes.effort, best)) {
+    EncodedTile other = fast::encodeInInputOrder(tile, ranked);
+    if (fast::totalBytes(other) < fast::totalBytes(best)) best = std::move(other);
+  }
+  return best;
 }
 
 DecodedTile FastMethod::decode(const TileToDecode& tile, const PointProgress& progress) const {
@@ -117,20 +161,28 @@ DecodedTile FastMethod::decode(const TileToDecode& tile, const PointProgress& pr
   const fast::TileHeader header = fast::readHeader(first, tile, budget);
   const fast::LayerStrides strides(tile.points, tile.layers, header.ratioBits);
   fast::PointCollector collector(header.frame, budget, progress, result);
+  const bool inputOrder = header.sequence == fast::Sequence::Input;
+  std::vector<GridPoint> inOrder;
   for (unsigned layer = 0; layer < tile.payloads.size(); ++layer) {
     const ByteView payload = layer == 0 ? first.bytes(first.remaining()) : tile.payloads[layer];
     const std::uint64_t points = strides.inLayer(layer);
-    if (points > 0) {
+    if (points == 0) {
+      if (!payload.empty()) throw Error(ErrorCode::Corrupt, "a layer without points has bytes");
+    } else if (inputOrder) {
+      fast::readInInputOrder(payload, strides, layer, header.frame.extent, tile, inOrder);
+    } else {
       fast::decodeSet(payload, points, tile, collector);
-    } else if (!payload.empty()) {
-      throw Error(ErrorCode::Corrupt, "a layer without points has bytes");
     }
   }
+  collector.append(inOrder.data(), inOrder.size());
   if (tile.wantCounts || tile.cellLevel) {
     constexpr std::uint64_t kSortBytes = 40;  // per point: places, keys and their copies
     budget.checkBytes(result.points.size() * kSortBytes);
-    fast::describeCells(tile, strides, static_cast<unsigned>(tile.payloads.size()) - 1,
-                        fast::hilbertSequence(result.points, tile.extent), result);
+    const std::vector<std::uint32_t> sequence =
+        inputOrder ? fast::identity(result.points.size())
+                   : fast::hilbertSequence(result.points, tile.extent);
+    fast::describeCells(tile, strides, static_cast<unsigned>(tile.payloads.size()) - 1, sequence,
+                        result);
   }
   return result;
 }

@@ -114,7 +114,7 @@ void decodeSet(ByteView payload, std::uint64_t points, const TileToDecode& limit
   tile.maxBytes = limits.maxBytes / 2;  // the result is copied
   tile.maxDepth = limits.maxDepth;
   const DecodedTile decoded = KdMethod().decode(tile, {});
-  if (!decoded.points.empty()) out.append(decoded.points.data(), decoded.points.size());
+  out.append(decoded.points.data(), decoded.points.size());
 }
 
 }  // namespace bspc::geometry::fast

@@ -26,6 +26,7 @@ class PointCollector {
 
   /// Throws Error(Corrupt) if a point lies outside of the tile.
   void append(const GridPoint* points, std::size_t count) {
+    if (count == 0) return;
     std::uint32_t outside = 0;
     for (unsigned k = 0; k < 3; ++k) {
       for (std::size_t i = 0; i < count; ++i) outside |= points[i][k] > frame_.extent[k] ? 1 : 0;

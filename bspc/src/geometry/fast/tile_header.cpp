@@ -14,9 +14,9 @@ constexpr unsigned kScaleFlag = 1U << 3;
 constexpr unsigned kInputOrderFlag = 1U << 4;
 constexpr unsigned kKnownFlags = (1U << 5) - 1;
 constexpr unsigned kMaxScale = 31;
-/// One point in 16 goes to the next coarser layer: coding layers apart costs about a third of a
-/// bit a point then; with one in four it would be four fifths.
-constexpr unsigned kUsualRatioBits = 4;
+/// One point in 64 goes to the next coarser layer: coding layers apart costs about ten bits for
+/// each bit a point then; with one in four it would be four fifths.
+constexpr unsigned kUsualRatioBits = 6;
 
 }  // namespace
 
