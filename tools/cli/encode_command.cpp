@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "bspc/decoder.h"
 #include "bspc/encoder.h"
@@ -31,6 +32,7 @@ struct EncodeArguments {
   std::string layout;
   unsigned bits = 0;
   double precision = 0;
+  std::optional<unsigned> effort;
   unsigned layers = 0;
   std::uint64_t tilePoints = 0;
   unsigned threads = 0;
@@ -62,6 +64,10 @@ GridRequest gridRequest(const EncodeArguments& args) {
 EncodeOptions encodeOptions(const EncodeArguments& args) {
   EncodeOptions options;
   options.grid = gridRequest(args);
+  options.effort = args.effort;
+  if (args.effort && !args.method.empty() && args.method != methodName(Method::Fast)) {
+    throw UsageError("method " + args.method + " has no --effort; leave one of the two out");
+  }
   options.layers = args.layers;
   options.tilePoints = args.tilePoints;
   options.threads = args.threads;
@@ -154,6 +160,12 @@ void addEncodeCommand(CLI::App& app) {
   command->add_option("--method", args->method, "How to code positions: " + knownMethods())
       ->type_name("NAME")
       ->check(methods)
+      ->group("Coding");
+  command
+      ->add_option("--effort", args->effort,
+                   "1 (quickest) to 4 (smallest), default 2, of method fast, the default method")
+      ->option_text("N")
+      ->check(CLI::Range(1U, 4U))
       ->group("Coding");
   command->add_option("--layers", args->layers, "Layers of detail, 1 to 32 (default: by size)")
       ->option_text("N")

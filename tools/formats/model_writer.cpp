@@ -15,8 +15,8 @@ namespace bspc::formats {
 namespace {
 
 void requireLayout(const ModelView& piece, const ModelLayout& layout) {
-  const bool matches = piece.points.type() == layout.type || piece.points.empty();
-  if (!matches || piece.columns.size() != layout.columns.size()) {
+  const bool typeFits = piece.points.empty() || piece.points.type() == layout.type;
+  if (!typeFits || piece.columns.size() != layout.columns.size()) {
     throw FormatError("a piece of the model has other types or columns than the model");
   }
   for (const PointColumn& column : piece.columns) {
@@ -54,6 +54,7 @@ ModelWriter::ModelWriter(std::ostream& out, Format format, ModelLayout layout,
 }
 
 void ModelWriter::append(const ModelView& piece) {
+  if (piece.points.empty() && piece.columns.empty()) return;
   requireLayout(piece, layout_);
   switch (format_) {
     case Format::Ply:
