@@ -13,13 +13,33 @@ namespace bspc::geometry::fast {
 
 namespace {
 
-constexpr unsigned kContexts = 8;  ///< of a step: the one before it, up to 7
+/// What a step between values is expected to be after: the last step alone, or the last three,
+/// which tell lattices whose steps are not whole numbers.
+class StepContext {
+ public:
+  explicit StepContext(bool three) : three_(three) {}
+
+  static unsigned count(bool three) { return three ? 128 : 8; }
+  unsigned index() const {
+    const auto last = static_cast<unsigned>(std::min<std::uint64_t>(steps_[0], 7));
+    return three_ ? (last * 4 + coarse(steps_[1])) * 4 + coarse(steps_[2]) : last;
+  }
+  void push(std::uint64_t step) {
+    steps_[2] = steps_[1];
+    steps_[1] = steps_[0];
+    steps_[0] = step;
+  }
+
+ private:
+  static unsigned coarse(std::uint64_t step) {
+    return step <= 2 ? 0 : static_cast<unsigned>(std::min<std::uint64_t>(step, 5)) - 2;
+  }
+  bool three_;
+  std::uint64_t steps_[3] = {};
+};
+
 /// Extents up to so many times the number of points are looked at value by value.
 constexpr std::uint64_t kDense = 64;
-
-unsigned contextOf(std::uint64_t step) {
-  return static_cast<unsigned>(std::min<std::uint64_t>(step, kContexts - 1));
-}
 
 std::vector<std::uint32_t> distinctDense(const std::vector<std::uint32_t>& coordinates,
                                          std::uint32_t extent) {
@@ -102,24 +122,32 @@ bool isRegular(const std::vector<std::uint32_t>& values) {
   return near * 5 >= values.size() * 4;
 }
 
-Bytes writeValues(const std::vector<std::uint32_t>& values) {
+namespace {
+
+Bytes writeSteps(const AxisValues& axes, bool three) {
   RansWriter symbols;
   BitWriter raw;
-  std::uint64_t before = 0;
-  for (std::size_t i = 1; i < values.size(); ++i) {
-    const std::uint64_t step = std::uint64_t{values[i]} - values[i - 1];
-    const unsigned symbol = kStepCode.symbolOf(step - 1);
-    symbols.symbol(contextOf(before), symbol);
-    const unsigned extra = kStepCode.extraBits(symbol);
-    if (extra > 0) raw.put(step - 1 - kStepCode.base(symbol), extra);
-    before = step;
+  for (const std::vector<std::uint32_t>& values : axes) {
+    StepContext context(three);
+    for (std::size_t i = 1; i < values.size(); ++i) {
+      const std::uint64_t step = std::uint64_t{values[i]} - values[i - 1];
+      const unsigned symbol = kStepCode.symbolOf(step - 1);
+      symbols.symbol(context.index(), symbol);
+      const unsigned extra = kStepCode.extraBits(symbol);
+      if (extra > 0) raw.put(step - 1 - kStepCode.base(symbol), extra);
+      context.push(step);
+    }
   }
+  const unsigned contexts = StepContext::count(three);
   BitWriter tables;
+  tables.put(three ? 1 : 0, 1);
   const Bytes coded = symbols.finish(
-      writeTables(tables, symbols.counts(kContexts), defaultFieldTables(kContexts)), 1);
+      writeTables(tables, symbols.counts(contexts), defaultFieldTables(contexts)), 1);
   const Bytes head = tables.finish();
   container::ByteWriter out;
-  out.varint(values.size());
+  for (const std::vector<std::uint32_t>& values : axes) {
+    if (!values.empty()) out.varint(values.size());
+  }
   out.varint(head.size());
   out.varint(coded.size());
   out.bytes(head);
@@ -128,12 +156,24 @@ Bytes writeValues(const std::vector<std::uint32_t>& values) {
   return out.take();
 }
 
-std::vector<std::uint32_t> readValues(ByteView section, std::uint64_t maxValues,
-                                      std::uint32_t extent, const OutputBudget& budget) {
-  container::ByteReader reader(section, "the values of an axis", 0);
-  const std::uint64_t count = reader.varint();
-  if (count < 2 || count > maxValues || count > std::uint64_t{extent} + 1) {
-    reader.fail("an impossible number of values");
+}  // namespace
+
+Bytes writeValues(const AxisValues& values) {
+  Bytes one = writeSteps(values, false);
+  Bytes three = writeSteps(values, true);
+  return three.size() < one.size() ? three : one;
+}
+
+AxisValues readValues(ByteView section, const std::array<bool, 3>& ranked, std::uint64_t maxValues,
+                      const GridPoint& extent, const OutputBudget& budget) {
+  container::ByteReader reader(section, "the values of the axes", 0);
+  std::uint64_t counts[3] = {};
+  for (unsigned k = 0; k < 3; ++k) {
+    if (!ranked[k]) continue;
+    counts[k] = reader.varint();
+    if (counts[k] < 2 || counts[k] > maxValues || counts[k] > std::uint64_t{extent[k]} + 1) {
+      reader.fail("an impossible number of values");
+    }
   }
   const std::size_t headSize = reader.varint32();
   const std::size_t codedSize = reader.varint32();
@@ -144,27 +184,36 @@ std::vector<std::uint32_t> readValues(ByteView section, std::uint64_t maxValues,
   Bytes padded(rest.begin(), rest.end());
   padded.resize(rest.size() + kSectionPadding);
   BitReader head(padded.data(), headSize);
-  const std::vector<DecodingTable> tables = readTables(head, defaultFieldTables(kContexts));
+  const bool three = head.get(1) != 0;
+  const std::vector<DecodingTable> tables =
+      readTables(head, defaultFieldTables(StepContext::count(three)));
   head.expectEnd();
   RansReader symbols(padded.data() + headSize, codedSize, 1);
   BitReader raw(padded.data() + headSize + codedSize, rest.size() - headSize - codedSize);
 
-  std::vector<std::uint32_t> values(1, 0);
-  std::uint64_t value = 0;
-  std::uint64_t step = 0;
-  while (values.size() < count) {
-    const unsigned symbol = symbols.symbol(tables[contextOf(step)]);
-    step = kStepCode.base(symbol) + 1;
-    if (const unsigned extra = kStepCode.extraBits(symbol); extra > 0) step += raw.get(extra);
-    value += step;
-    if (value > extent) reader.fail("a value outside of the tile");
-    if (values.size() == values.capacity()) budget.checkBytes(12 * values.size());
-    values.push_back(static_cast<std::uint32_t>(value));
+  AxisValues axes;
+  std::uint64_t kept = 0;
+  for (unsigned k = 0; k < 3; ++k) {
+    std::vector<std::uint32_t>& values = axes[k];
+    if (counts[k] > 0) values.push_back(0);
+    StepContext context(three);
+    std::uint64_t value = 0;
+    while (values.size() < counts[k]) {
+      const unsigned symbol = symbols.symbol(tables[context.index()]);
+      std::uint64_t step = kStepCode.base(symbol) + 1;
+      if (const unsigned extra = kStepCode.extraBits(symbol); extra > 0) step += raw.get(extra);
+      value += step;
+      if (value > extent[k]) reader.fail("a value outside of the tile");
+      if (values.size() == values.capacity()) budget.checkBytes(kept + 12 * values.size());
+      values.push_back(static_cast<std::uint32_t>(value));
+      context.push(step);
+    }
+    if (counts[k] > 0 && value != extent[k]) reader.fail("values that end before the tile does");
+    kept += values.capacity() * sizeof(std::uint32_t);
   }
-  if (value != extent) reader.fail("values that end before the tile does");
   symbols.expectEnd();
   raw.expectEnd();
-  return values;
+  return axes;
 }
 
 }  // namespace bspc::geometry::fast

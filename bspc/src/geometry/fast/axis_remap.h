@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -21,9 +22,12 @@ std::vector<std::uint32_t> ranksOf(const std::vector<std::uint32_t>& coordinates
 /// Steps between values: whether they are regular enough to speak of a typical one.
 bool isRegular(const std::vector<std::uint32_t>& values);
 
-Bytes writeValues(const std::vector<std::uint32_t>& values);
-/// Reads at most `maxValues` values that end with `extent`. Throws Error(Corrupt).
-std::vector<std::uint32_t> readValues(ByteView section, std::uint64_t maxValues,
-                                      std::uint32_t extent, const OutputBudget& budget);
+/// Sorted values from 0 to the extent, of each axis that has ranks; the others are empty.
+using AxisValues = std::array<std::vector<std::uint32_t>, 3>;
+
+Bytes writeValues(const AxisValues& values);
+/// Reads the values of the axes that `ranked` says. Throws Error(Corrupt).
+AxisValues readValues(ByteView section, const std::array<bool, 3>& ranked, std::uint64_t maxValues,
+                      const GridPoint& extent, const OutputBudget& budget);
 
 }  // namespace bspc::geometry::fast

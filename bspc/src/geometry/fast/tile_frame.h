@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "bspc/error.h"
+#include "geometry/fast/axis_remap.h"
 #include "geometry/fast/cell.h"
 #include "geometry/output_budget.h"
 
@@ -14,7 +14,9 @@ namespace bspc::geometry::fast {
 struct TileFrame {
   GridPoint extent{};  ///< greatest rank along each axis (of axes without ranks: coordinate)
   StepScale scale{};
-  std::vector<std::uint32_t> values[3];  ///< coordinate of each rank; empty: the rank itself
+  AxisValues values;  ///< coordinate of each rank; empty: the rank itself
+
+  bool hasRanks() const { return !(values[0].empty() && values[1].empty() && values[2].empty()); }
 };
 
 /// Takes decoded points in ranks and appends them to the output as coordinates.

@@ -57,9 +57,8 @@ void writeHeader(container::ByteWriter& out, const TileHeader& header, unsigned 
   if (scaled) {
     for (const std::uint8_t s : frame.scale) out.u8(s);
   }
-  for (const std::vector<std::uint32_t>& values : frame.values) {
-    if (values.empty()) continue;
-    const Bytes section = writeValues(values);
+  if (frame.hasRanks()) {
+    const Bytes section = writeValues(frame.values);
     out.varint(section.size());
     out.bytes(section);
   }
@@ -84,15 +83,14 @@ TileHeader readHeader(container::ByteReader& in, const TileToDecode& tile,
     }
   }
   header.frame.extent = tile.extent;
-  std::uint64_t kept = 0;
+  std::array<bool, 3> ranked{};
+  for (unsigned k = 0; k < 3; ++k) ranked[k] = (flags & (1U << k)) != 0;
+  if (ranked == std::array<bool, 3>{}) return header;
+  const ByteView section = in.bytes(in.varint());
+  header.frame.values = readValues(section, ranked, tile.points, tile.extent, budget);
   for (unsigned k = 0; k < 3; ++k) {
-    if ((flags & (1U << k)) == 0) continue;
-    const ByteView section = in.bytes(in.varint());
-    std::vector<std::uint32_t>& values = header.frame.values[k];
-    values = readValues(section, tile.points, tile.extent[k], budget);
-    kept += values.capacity() * sizeof(std::uint32_t);
-    budget.checkBytes(kept);
-    header.frame.extent[k] = static_cast<std::uint32_t>(values.size() - 1);
+    if (!ranked[k]) continue;
+    header.frame.extent[k] = static_cast<std::uint32_t>(header.frame.values[k].size() - 1);
   }
   return header;
 }
