@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "bspc/error.h"
 #include "container/byte_reader.h"
@@ -13,18 +14,30 @@ namespace bspc::geometry::fast {
 
 namespace {
 
-/// What a step between values is expected to be after: the last step alone, or the last three,
-/// which tell lattices whose steps are not whole numbers.
+/// What the next step between values depends on. Lattices whose steps are not whole numbers show as
+/// patterns of two steps: two such lattices at once in the last three steps, a single one in how
+/// long the last step has been repeated.
+enum class StepPattern : std::uint8_t { Last = 0, LastThree = 1, Repeats = 2, Count = 3 };
+constexpr unsigned kPatternBits = 2;
+
 class StepContext {
  public:
-  explicit StepContext(bool three) : three_(three) {}
+  explicit StepContext(StepPattern pattern) : pattern_(pattern) {}
 
-  static unsigned count(bool three) { return three ? 128 : 8; }
+  static unsigned count(StepPattern pattern) { return pattern == StepPattern::Last ? 8 : 128; }
   unsigned index() const {
     const auto last = static_cast<unsigned>(std::min<std::uint64_t>(steps_[0], 7));
-    return three_ ? (last * 4 + coarse(steps_[1])) * 4 + coarse(steps_[2]) : last;
+    switch (pattern_) {
+      case StepPattern::LastThree:
+        return (last * 4 + coarse(steps_[1])) * 4 + coarse(steps_[2]);
+      case StepPattern::Repeats:
+        return last * 16 + repeats_;
+      default:
+        return last;
+    }
   }
   void push(std::uint64_t step) {
+    repeats_ = step == steps_[0] ? std::min(repeats_ + 1, 15U) : 0;
     steps_[2] = steps_[1];
     steps_[1] = steps_[0];
     steps_[0] = step;
@@ -34,8 +47,9 @@ class StepContext {
   static unsigned coarse(std::uint64_t step) {
     return step <= 2 ? 0 : static_cast<unsigned>(std::min<std::uint64_t>(step, 5)) - 2;
   }
-  bool three_;
+  StepPattern pattern_;
   std::uint64_t steps_[3] = {};
+  unsigned repeats_ = 0;
 };
 
 /// Extents up to so many times the number of points are looked at value by value.
@@ -119,16 +133,16 @@ bool isRegular(const std::vector<std::uint32_t>& values) {
   while (median < 255 && (seen += steps[median]) * 2 < values.size()) ++median;
   if (median == 255) return false;
   const std::size_t near = steps[median] + (median > 0 ? steps[median - 1] : 0) + steps[median + 1];
-  return near * 5 >= values.size() * 4;
+  return near * 8 >= values.size() * 7;
 }
 
 namespace {
 
-Bytes writeSteps(const AxisValues& axes, bool three) {
+Bytes writeSteps(const AxisValues& axes, StepPattern pattern) {
   RansWriter symbols;
   BitWriter raw;
   for (const std::vector<std::uint32_t>& values : axes) {
-    StepContext context(three);
+    StepContext context(pattern);
     for (std::size_t i = 1; i < values.size(); ++i) {
       const std::uint64_t step = std::uint64_t{values[i]} - values[i - 1];
       const unsigned symbol = kStepCode.symbolOf(step - 1);
@@ -138,9 +152,9 @@ Bytes writeSteps(const AxisValues& axes, bool three) {
       context.push(step);
     }
   }
-  const unsigned contexts = StepContext::count(three);
+  const unsigned contexts = StepContext::count(pattern);
   BitWriter tables;
-  tables.put(three ? 1 : 0, 1);
+  tables.put(static_cast<std::uint64_t>(pattern), kPatternBits);
   const Bytes coded = symbols.finish(
       writeTables(tables, symbols.counts(contexts), defaultFieldTables(contexts)), 1);
   const Bytes head = tables.finish();
@@ -159,9 +173,12 @@ Bytes writeSteps(const AxisValues& axes, bool three) {
 }  // namespace
 
 Bytes writeValues(const AxisValues& values) {
-  Bytes one = writeSteps(values, false);
-  Bytes three = writeSteps(values, true);
-  return three.size() < one.size() ? three : one;
+  Bytes best = writeSteps(values, StepPattern::Last);
+  for (const StepPattern pattern : {StepPattern::LastThree, StepPattern::Repeats}) {
+    Bytes other = writeSteps(values, pattern);
+    if (other.size() < best.size()) best = std::move(other);
+  }
+  return best;
 }
 
 AxisValues readValues(ByteView section, const std::array<bool, 3>& ranked, std::uint64_t maxValues,
@@ -184,9 +201,10 @@ AxisValues readValues(ByteView section, const std::array<bool, 3>& ranked, std::
   Bytes padded(rest.begin(), rest.end());
   padded.resize(rest.size() + kSectionPadding);
   BitReader head(padded.data(), headSize);
-  const bool three = head.get(1) != 0;
+  const auto pattern = static_cast<StepPattern>(head.get(kPatternBits));
+  if (pattern >= StepPattern::Count) reader.fail("an unknown pattern of steps");
   const std::vector<DecodingTable> tables =
-      readTables(head, defaultFieldTables(StepContext::count(three)));
+      readTables(head, defaultFieldTables(StepContext::count(pattern)));
   head.expectEnd();
   RansReader symbols(padded.data() + headSize, codedSize, 1);
   BitReader raw(padded.data() + headSize + codedSize, rest.size() - headSize - codedSize);
@@ -196,7 +214,7 @@ AxisValues readValues(ByteView section, const std::array<bool, 3>& ranked, std::
   for (unsigned k = 0; k < 3; ++k) {
     std::vector<std::uint32_t>& values = axes[k];
     if (counts[k] > 0) values.push_back(0);
-    StepContext context(three);
+    StepContext context(pattern);
     std::uint64_t value = 0;
     while (values.size() < counts[k]) {
       const unsigned symbol = symbols.symbol(tables[context.index()]);

@@ -143,6 +143,12 @@ EncodedTile FastMethod::encode(const TileInput& tile, const PointProgress& progr
   }
   fast::RankedPoints ranked = fast::rankPoints(tile);
   EncodedTile best = fast::encodeAlongHilbert(tile, ranked, progress);
+  if (tile.wishes.effort >= 3 && ranked.otherScale != ranked.header.frame.scale) {
+    fast::RankedPoints rescaled = ranked;
+    rescaled.header.frame.scale = ranked.otherScale;
+    EncodedTile other = fast::encodeAlongHilbert(tile, rescaled, progress);
+    if (fast::totalBytes(other) < fast::totalBytes(best)) best = std::move(other);
+  }
   if (fast::isInputOrderPromising(ranked, tile.wishes.effort, best)) {
     EncodedTile other = fast::encodeInInputOrder(tile, ranked);
     if (fast::totalBytes(other) < fast::totalBytes(best)) best = std::move(other);

@@ -18,13 +18,23 @@ constexpr unsigned kMaxScale = 31;
 /// each bit a point then; with one in four it would be four fifths.
 constexpr unsigned kUsualRatioBits = 6;
 
+StepScale scaleOf(const double (&step)[3]) {
+  const double finest = std::min({step[0], step[1], step[2]});
+  StepScale scale{};
+  for (unsigned k = 0; k < 3; ++k) {
+    scale[k] = static_cast<std::uint8_t>(std::floor(std::log2(step[k] / finest) + 0.5));
+  }
+  return scale;
+}
+
 }  // namespace
 
 RankedPoints rankPoints(const TileInput& tile) {
   RankedPoints ranked;
   TileFrame& frame = ranked.header.frame;
   if (tile.layers > 1) ranked.header.ratioBits = kUsualRatioBits;
-  double step[3] = {1, 1, 1};
+  double regularStep[3] = {1, 1, 1};
+  double meanStep[3] = {1, 1, 1};
   for (unsigned k = 0; k < 3; ++k) {
     std::vector<std::uint32_t>& c = ranked.coordinates[k];
     c.resize(tile.points.size());
@@ -34,15 +44,12 @@ RankedPoints rankPoints(const TileInput& tile) {
     if (frame.values[k].empty()) continue;
     c = ranksOf(c, frame.values[k]);
     frame.extent[k] = static_cast<std::uint32_t>(frame.values[k].size() - 1);
-    if (isRegular(frame.values[k])) {
-      step[k] =
-          (static_cast<double>(tile.extent[k]) + 1) / static_cast<double>(frame.values[k].size());
-    }
+    meanStep[k] =
+        (static_cast<double>(tile.extent[k]) + 1) / static_cast<double>(frame.values[k].size());
+    if (isRegular(frame.values[k])) regularStep[k] = meanStep[k];
   }
-  const double finest = std::min({step[0], step[1], step[2]});
-  for (unsigned k = 0; k < 3; ++k) {
-    frame.scale[k] = static_cast<std::uint8_t>(std::floor(std::log2(step[k] / finest) + 0.5));
-  }
+  frame.scale = scaleOf(regularStep);
+  ranked.otherScale = scaleOf(meanStep);
   return ranked;
 }
 

@@ -21,6 +21,8 @@ struct TileHeader {
 struct RankedPoints {
   TileHeader header;
   std::vector<std::uint32_t> coordinates[3];
+  /// Another guess at the scale: from all axes with ranks, whether their steps are regular or not.
+  StepScale otherScale{};
 };
 RankedPoints rankPoints(const TileInput& tile);
 
