@@ -171,7 +171,8 @@ void printHead() {
 
 void compare(const std::string& path, const std::vector<Coder>& coders, int repetitions) {
   const Coordinates xyz = readOnLattice(path);
-  const auto points = static_cast<double>(xyz.size() / 3);
+  const std::size_t count = xyz.size() / 3;
+  const auto points = static_cast<double>(count);
   std::vector<Measurement> results(coders.size());
   for (int i = 0; i < repetitions; ++i) {
     for (std::size_t c = 0; c < coders.size(); ++c) runOnce(coders[c], xyz, results[c]);
