@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "geometry/bsp/bsp_method.h"
 #include "geometry/kd/kd_method.h"
 
 namespace bspc {
@@ -13,7 +14,10 @@ struct NamedMethod {
   const char* name;
 };
 
-constexpr std::array<NamedMethod, 1> kMethods{{{Method::Kd, "kd"}}};
+constexpr std::array<NamedMethod, 2> kMethods{{
+    {Method::Kd, "kd"},
+    {Method::Bsp, "bsp"},
+}};
 
 }  // namespace
 
@@ -42,9 +46,12 @@ namespace geometry {
 
 const GeometryMethod* findGeometryMethod(Method id) {
   static const KdMethod kd;
+  static const BspMethod bsp;
   switch (id) {
     case Method::Kd:
       return &kd;
+    case Method::Bsp:
+      return &bsp;
   }
   return nullptr;
 }
