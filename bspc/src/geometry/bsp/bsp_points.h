@@ -22,6 +22,7 @@ class BspSortedPoints {
   WantedDirection wantedDirection(const BspCell& cell, const LocalFrame& frame) const;
   double wantedAlpha(const BspCell& cell, const LocalFrame& frame,
                      const IntegerVector& normal) const;
+  GridPoint at(std::uint64_t j) const { return points_[static_cast<std::size_t>(j)]; }
   /// Sorts the cell's points by place, and counts those of each.
   void tally(const BspCell& cell, const GridPoint* places, unsigned count, std::uint64_t* points);
   [[noreturn]] static void lost() { throw Lost(); }
@@ -67,6 +68,7 @@ class BspCollectedPoints {
                             const IntegerVector& /*normal*/) {
     return 0;
   }
+  static GridPoint at(std::uint64_t /*j*/) { return {}; }
   static void tally(const BspCell& /*cell*/, const GridPoint* /*places*/, unsigned /*count*/,
                     std::uint64_t* /*points*/) {}
   static void lost() {}

@@ -83,10 +83,10 @@ class BspTreeCoder {
         open.pop_back();
         if (parameters_.stop.stops(cell.count, level)) {
           points_.emit(cell.box.middle(), cell.count, cell, true);
+        } else if (cell.count == 1 && (small(cell) || !parameters_.stop.level)) {
+          place(cell, level);
         } else if (small(cell)) {
           distribute(cell);
-        } else if (cell.count == 1 && !parameters_.stop.level) {
-          place(cell, level);
         } else {
           halves.clear();
           cut(cell, level, halves);
@@ -265,7 +265,8 @@ class BspTreeCoder {
     parts.emplace_back();
     BspCell& part = parts.back();
     if (shape != nullptr) {
-      shape->pack(part.shape);
+      // Bisection leaves a lone point in a plain box sooner or later.
+      if (count > 1 || !shape->isBox()) shape->pack(part.shape);
     } else {
       part.shape = cell.shape;
     }
@@ -280,12 +281,22 @@ class BspTreeCoder {
   void place(const BspCell& start, unsigned level) {
     std::vector<BspCell>& parts = lone_;
     BspCell cell = start;
-    while (!small(cell)) {
+    while (!small(cell) && !cell.boxOnly()) {
       parts.clear();
       cut(cell, level++, parts);
       std::swap(cell, parts.front());
     }
-    distribute(cell);
+    if (!cell.boxOnly()) {
+      distribute(cell);
+      return;
+    }
+    GridPoint point = Coder::kWriting ? points_.at(cell.first) : GridPoint{};
+    if (Coder::kWriting && !cell.box.contains(point)) points_.lost();
+    for (unsigned k = 0; k < 3; ++k) {
+      point[k] = cell.box.lower[k] + coder_->uniform(point[k] - cell.box.lower[k],
+                                                     cell.box.upper[k] - cell.box.lower[k]);
+    }
+    points_.emit(point, 1, cell, false);
   }
 
   /// The points of a small cell among the grid positions that it may hold.

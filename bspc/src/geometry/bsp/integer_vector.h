@@ -44,9 +44,8 @@ constexpr std::int64_t roundDivide(std::int64_t a, std::int64_t b) {
 }
 
 /// a / 2^bits rounded down.
-constexpr std::int64_t floorShift(std::int64_t a, unsigned bits) {
-  return floorDivide(a, std::int64_t{1} << bits);
-}
+constexpr std::int64_t floorShift(std::int64_t a, unsigned bits) { return a >> bits; }
+static_assert(floorShift(-3, 1) == -2, "shifts of negative numbers must be arithmetic");
 
 /// The largest r with r² ≤ v; 0 for negative v.
 inline std::int64_t integerRoot(std::int64_t v) {

@@ -91,26 +91,27 @@ unsigned Polyhedron::volumeShift() const {
 // fanned out from any of its vertices, r, into triangles r, from, to; so each edge counts once for
 // the face on its left and once, turned round, for the one on its right.
 std::int64_t Polyhedron::volume(unsigned shift) const {
-  const auto relative = [this, shift](unsigned i) {
+  std::array<IntegerVector, kMaxVertices> relative;
+  for (unsigned i = 0; i < vertices_; ++i) {
     const IntegerVector d = vertex(i) - vertex(0);
-    const std::int64_t unit = std::int64_t{1} << shift;
-    return shift == 0 ? d : IntegerVector{d.x / unit, d.y / unit, d.z / unit};
-  };
-  std::array<IntegerVector, kMaxFaces> first;
-  std::array<bool, kMaxFaces> known{};
+    relative[i] = {floorShift(d.x, shift), floorShift(d.y, shift), floorShift(d.z, shift)};
+  }
+  std::array<std::uint8_t, kMaxFaces> first;
+  first.fill(kNone);
   std::int64_t sum = 0;
   for (unsigned e = 0; e < edges_; ++e) {
     const Edge& edge = edge_[e];
-    const IntegerVector a = relative(edge.from);
-    for (const std::uint8_t f : {edge.left, edge.right}) {
-      if (!known[f]) {
-        known[f] = true;
-        first[f] = a;
-      }
-    }
-    sum += dot(first[edge.left] - first[edge.right], cross(a, relative(edge.to)));
+    if (first[edge.left] == kNone) first[edge.left] = edge.from;
+    if (first[edge.right] == kNone) first[edge.right] = edge.from;
+    const IntegerVector apart = relative[first[edge.left]] - relative[first[edge.right]];
+    sum += dot(apart, cross(relative[edge.from], relative[edge.to]));
   }
   return sum < 0 ? -sum : sum;
+}
+
+bool Polyhedron::isBox() const {
+  return std::all_of(face_.begin(), face_.begin() + faces_,
+                     [](const Face& face) { return face.side == 0; });
 }
 
 bool Polyhedron::contains(const GridPoint& p) const {

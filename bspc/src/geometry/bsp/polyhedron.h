@@ -97,6 +97,9 @@ class Polyhedron {
   /// The shift at which volume() cannot overflow for this cell and for any part of it.
   unsigned volumeShift() const;
 
+  /// Whether all faces lie across axes, so that the grid box says everything.
+  bool isBox() const;
+
   /// Whether the planes of all faces have the point on the cell's side.
   bool contains(const GridPoint& p) const;
 
