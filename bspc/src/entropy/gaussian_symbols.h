@@ -56,9 +56,9 @@ class GaussianSymbols {
   static constexpr std::array<std::uint16_t, kGaussSteps + 1> kGauss{
       1024, 1022, 1016, 1006, 992, 975, 954, 931, 904, 874, 842, 808, 773, 736, 698, 660, 621,
       582,  544,  506,  469,  433, 398, 364, 332, 302, 273, 247, 221, 198, 177, 157, 139};
-  static constexpr unsigned kGaussShare = 256;
-  static constexpr unsigned kFlat = 5;
-  static constexpr unsigned kIncrement = 20;
+  static constexpr unsigned kGaussShare = 128;
+  static constexpr unsigned kFlat = 10;
+  static constexpr unsigned kIncrement = 16;
   static constexpr std::uint32_t kLimit = 1U << 15;
 
   void halve() {

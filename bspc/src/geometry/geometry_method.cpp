@@ -4,6 +4,7 @@
 
 #include "geometry/bsp/bsp_method.h"
 #include "geometry/kd/kd_method.h"
+#include "geometry/partition/partition_method.h"
 
 namespace bspc {
 
@@ -14,9 +15,11 @@ struct NamedMethod {
   const char* name;
 };
 
-constexpr std::array<NamedMethod, 2> kMethods{{
+constexpr std::array<NamedMethod, 4> kMethods{{
     {Method::Kd, "kd"},
     {Method::Bsp, "bsp"},
+    {Method::Octree, "octree"},
+    {Method::GenCode, "gencode"},
 }};
 
 }  // namespace
@@ -52,6 +55,10 @@ const GeometryMethod* findGeometryMethod(Method id) {
       return &kd;
     case Method::Bsp:
       return &bsp;
+    case Method::Octree:
+      return &octreeMethod();
+    case Method::GenCode:
+      return &genCodeMethod();
   }
   return nullptr;
 }

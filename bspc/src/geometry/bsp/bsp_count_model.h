@@ -12,7 +12,7 @@ namespace bspc::geometry {
 /// Codes how many of a cell's points lie in front of its plane.
 class BspCountModel {
  public:
-  static constexpr unsigned kHistoryBits = 2;
+  static constexpr unsigned kHistoryBits = 1;
 
   /// `front` of `count` ≥ 2 points. `history`: newest lowest, 1 for an ancestor whose cut left a
   /// side without points.
