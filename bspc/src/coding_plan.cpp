@@ -40,6 +40,12 @@ CodingPlan planCoding(const EncodeOptions& options, std::uint64_t points) {
     throw Error(ErrorCode::InvalidArgument,
                 "this version has no method number " + std::to_string(static_cast<int>(id)));
   }
+  if ((options.stopPoints > 0 || options.stopLevel) && !plan.method->canStop()) {
+    throw Error(ErrorCode::InvalidArgument, std::string("method ") + methodName(id) +
+                                                " has no lossy stops; the methods bsp and kd have");
+  }
+  plan.wishes.stopPoints = options.stopPoints;
+  plan.wishes.stopLevel = options.stopLevel;
   const std::uint64_t wished = options.tilePoints != 0 ? options.tilePoints : kMaxTilePoints;
   plan.tilePoints = std::min(wished, kMaxTilePoints);
   plan.layers = chooseLayers(std::min(points, plan.tilePoints), options.layers);

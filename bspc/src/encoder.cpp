@@ -7,6 +7,7 @@
 #include "bspc/error.h"
 #include "coding_plan.h"
 #include "container/container_writer.h"
+#include "lossy_error.h"
 #include "parallel.h"
 #include "progress_scale.h"
 #include "shared_progress.h"
@@ -30,9 +31,9 @@ void refuseArrays(const PointSetView& points) {
 /// Codes the points of one fit and hands them to a container.
 class SetEncoder {
  public:
-  SetEncoder(const GridFit& fit, const CodingPlan& plan, const EncodeOptions& options,
-             EncodeReport& report)
-      : fit_(fit), plan_(plan), options_(options), report_(report) {}
+  SetEncoder(const PointSetView& points, const GridFit& fit, const CodingPlan& plan,
+             const EncodeOptions& options, EncodeReport& report)
+      : points_(points), fit_(fit), plan_(plan), options_(options), report_(report) {}
 
   void run(container::ContainerWriter& writer, ProgressScale& scale) {
     const TileEncoder encoder(*plan_.method, plan_.layers, plan_.wishes);
@@ -61,22 +62,36 @@ class SetEncoder {
     const auto consume = [&](std::size_t i, FinishedTile tile) {
       for (const Bytes& chunk : tile.chunks) report_.geometryBytes += chunk.size();
       ++report_.tiles;
-      if (options_.wantOrder) appendOrder(cut, i, offset, tile.order);
+      if (options_.wantOrder || !tile.decoded.empty()) {
+        const std::vector<std::uint64_t> sources = sourcesOf(cut, i, offset, tile.order);
+        if (!tile.decoded.empty()) {
+          addLossyError(points_, sources, tile.decoded, tile.record.lower, report_);
+        }
+        if (options_.wantOrder) {
+          report_.order.insert(report_.order.end(), sources.begin(), sources.end());
+        }
+      }
       writer.addTile(std::move(tile.record), std::move(tile.chunks));
     };
     OrderedParallel<FinishedTile>(cut.tiles(), threadCount(options_.threads), produce)
         .run(consume, [&progress] { progress.report(); });
   }
 
-  void appendOrder(const tiling::TileCut& cut, std::size_t tile, std::size_t offset,
-                   const std::vector<std::uint32_t>& order) {
+  /// Input indices of a tile's points, in decoded order.
+  std::vector<std::uint64_t> sourcesOf(const tiling::TileCut& cut, std::size_t tile,
+                                       std::size_t offset,
+                                       const std::vector<std::uint32_t>& order) const {
+    std::vector<std::uint64_t> sources;
+    sources.reserve(order.size());
     for (const std::uint32_t j : order) {
       const std::size_t inPart = cut.firsts[tile] + j;
       const std::size_t index = offset + (cut.order.empty() ? inPart : cut.order[inPart]);
-      report_.order.push_back(fit_.sourceIndex.empty() ? index : fit_.sourceIndex[index]);
+      sources.push_back(fit_.sourceIndex.empty() ? index : fit_.sourceIndex[index]);
     }
+    return sources;
   }
 
+  const PointSetView& points_;
   const GridFit& fit_;
   const CodingPlan& plan_;
   const EncodeOptions& options_;
@@ -107,7 +122,7 @@ EncodeReport encode(const PointSetView& points, ByteSink& sink, const EncodeOpti
   ProgressScale coding(options.progress, kGridShare, 1);
   coding.report(0);
   container::ContainerWriter writer(sink, options.layout, report.grid, report.layers);
-  SetEncoder(fit, plan, options, report).run(writer, coding);
+  SetEncoder(points, fit, plan, options, report).run(writer, coding);
   writer.finish();
   report.fileBytes = writer.bytesWritten();
   coding.report(1);

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "bspc/decoder.h"
 #include "bspc/encoder.h"
@@ -29,6 +30,8 @@ struct EncodeArguments {
   unsigned bits = 0;
   double precision = 0;
   unsigned layers = 0;
+  std::uint64_t stopPoints = 0;
+  std::optional<unsigned> stopLevel;
   bool positionsOnly = false;
   bool dropNonFinite = false;
   bool force = false;
@@ -57,6 +60,8 @@ EncodeOptions encodeOptions(const EncodeArguments& args) {
   EncodeOptions options;
   options.grid = gridRequest(args);
   options.layers = args.layers;
+  options.stopPoints = args.stopPoints;
+  options.stopLevel = args.stopLevel;
   if (!args.method.empty()) options.method = methodFromName(args.method);
   // To a pipe the index goes last, so that a reader of the pipe sees tiles as they come.
   const std::string layout =
@@ -144,6 +149,17 @@ void addEncodeCommand(CLI::App& app) {
   command->add_option("--layout", args->layout, "Index in front (the default) or at the end")
       ->option_text("progressive|streaming")
       ->check(CLI::IsMember({"progressive", "streaming"}))
+      ->group("Coding");
+  command
+      ->add_option("--stop-points", args->stopPoints,
+                   "Lossy: cells of at most N points stay undivided, each\n"
+                   "point coming back as the middle of its cell (bsp, kd)")
+      ->option_text("N")
+      ->group("Coding");
+  command
+      ->add_option("--stop-level", args->stopLevel,
+                   "Lossy: so do cells that L cuts have made (bsp, kd)")
+      ->option_text("L")
       ->group("Coding");
   command
       ->add_option("--bits", args->bits,

@@ -69,8 +69,7 @@ void BspSortedPoints::tally(const BspCell& cell, const GridPoint* places, unsign
   }
 }
 
-void BspSortedPoints::emit(const GridPoint& point, std::uint64_t count, const BspCell& /*cell*/,
-                           bool /*undivided*/) {
+void BspSortedPoints::emit(const GridPoint& point, std::uint64_t count, const BspCell& /*cell*/) {
   if (lossy_) decoded_.insert(decoded_.end(), static_cast<std::size_t>(count), point);
   done_ += count;
   if (done_ < nextReport_) return;

@@ -27,7 +27,7 @@ class BspSortedPoints {
   void tally(const BspCell& cell, const GridPoint* places, unsigned count, std::uint64_t* points);
   [[noreturn]] static void lost() { throw Lost(); }
 
-  void emit(const GridPoint& point, std::uint64_t count, const BspCell& cell, bool undivided);
+  void emit(const GridPoint& point, std::uint64_t count, const BspCell& cell);
   static void cellsInMemory(std::uint64_t /*bytes*/) {}
 
   /// Greatest distance along an axis of the points of the cells to the middles of their boxes.
@@ -72,7 +72,7 @@ class BspCollectedPoints {
   static void tally(const BspCell& /*cell*/, const GridPoint* /*places*/, unsigned /*count*/,
                     std::uint64_t* /*points*/) {}
   static void lost() {}
-  void emit(const GridPoint& point, std::uint64_t count, const BspCell& cell, bool /*undivided*/) {
+  void emit(const GridPoint& point, std::uint64_t count, const BspCell& cell) {
     output_.leaf(point, count, cell.id);
   }
   void cellsInMemory(std::uint64_t bytes) const { output_.checkBytes(bytes); }

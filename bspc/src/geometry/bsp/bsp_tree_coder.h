@@ -23,7 +23,7 @@ namespace bspc::geometry {
 ///   std::uint64_t partition(const BspCell&, const CutPlane&) points in front, moved to the fore
 ///   GridPoint at(std::uint64_t j)                            the j-th leaf point
 ///   void tally(const BspCell&, places, uint64 counts)        points at each place, sorted so
-///   void emit(const GridPoint&, std::uint64_t count, const BspCell&, bool undivided)
+///   void emit(const GridPoint&, std::uint64_t count, const BspCell&)
 ///   void cellsInMemory(std::uint64_t bytes)                  throws if they are too many
 template <class Coder, class Points>
 class BspTreeCoder {
@@ -82,7 +82,7 @@ class BspTreeCoder {
         const auto [cell, level] = std::move(open.back());
         open.pop_back();
         if (parameters_.stop.stops(cell.count, level)) {
-          points_.emit(cell.box.middle(), cell.count, cell, true);
+          points_.emit(cell.box.middle(), cell.count, cell);
         } else if (cell.count == 1 && (small(cell) || !parameters_.stop.level)) {
           place(cell, level);
         } else if (small(cell)) {
@@ -296,7 +296,7 @@ class BspTreeCoder {
       point[k] = cell.box.lower[k] + coder_->uniform(point[k] - cell.box.lower[k],
                                                      cell.box.upper[k] - cell.box.lower[k]);
     }
-    points_.emit(point, 1, cell, false);
+    points_.emit(point, 1, cell);
   }
 
   /// The points of a small cell among the grid positions that it may hold.
@@ -331,14 +331,14 @@ class BspTreeCoder {
                   unsigned count, std::uint64_t sum) {
     if (sum == 0) return;
     if (count == 1) {
-      points_.emit(places[0], sum, cell, false);
+      points_.emit(places[0], sum, cell);
       return;
     }
     if (sum == 1) {
       const auto found =
           static_cast<std::uint32_t>(std::find(points, points + count, std::uint64_t{1}) - points);
       const std::uint32_t index = coder_->slice(Coder::kWriting ? found : 0, count);
-      points_.emit(places[index], 1, cell, false);
+      points_.emit(places[index], 1, cell);
       return;
     }
     const unsigned half = count / 2;
