@@ -44,7 +44,6 @@ while (($# > 0)); do
   shift
 done
 
-package=libcgal-demo
 demo=build/demo
 # Meshes from 620 to 37,706 vertices of known names, then scans and sampled surfaces.
 models=(
@@ -55,24 +54,7 @@ models=(
   points_3/b9_training.ply points_3/building.ply
 )
 
-fetch_models() {
-  [[ -f $demo/complete ]] && return
-  echo "demo: fetching the models of $package into $demo"
-  rm -rf "$demo/package"
-  mkdir -p "$demo/package"
-  local options=()
-  # apt-get's own user may not be able to write into a checkout.
-  ((EUID != 0)) || options=(-o APT::Sandbox::User=root)
-  rm -f "$demo/$package"_*.deb
-  (cd "$demo" && apt-get -q "${options[@]}" download "$package")
-  dpkg -x "$demo/$package"_*.deb "$demo/package"
-  tar -xzf "$demo/package/usr/share/doc/$package/data.tar.gz" -C "$demo"
-  rm -r "$demo/package"
-  touch "$demo/complete"
-}
-
-# The lists that apt-get fetches the package by are needed before the first run only.
-if [[ -f $demo/complete ]]; then scripts/setup.sh; else scripts/setup.sh --for-download "$package"; fi
+scripts/setup.sh
 
 echo "demo: building the command"
 mkdir -p "$demo"
@@ -86,7 +68,7 @@ build >"$demo/build.log" 2>&1 || {
 }
 bspc=$PWD/build/release/bin/bspc
 
-fetch_models
+scripts/models.sh
 
 originals=()
 for model in "${models[@]}"; do originals+=("$demo/data/$model"); done

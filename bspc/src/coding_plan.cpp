@@ -75,6 +75,12 @@ CodingPlan planCoding(const EncodeOptions& options, std::uint64_t points) {
     throw Error(ErrorCode::InvalidArgument,
                 "this version has no method number " + std::to_string(static_cast<int>(id)));
   }
+  if ((options.stopPoints > 0 || options.stopLevel) && !plan.method->canStop()) {
+    throw Error(ErrorCode::InvalidArgument, std::string("method ") + methodName(id) +
+                                                " has no lossy stops; the methods bsp and kd have");
+  }
+  plan.wishes.stopPoints = options.stopPoints;
+  plan.wishes.stopLevel = options.stopLevel;
   plan.wishes.effort = options.effort.value_or(kDefaultEffort);
   const bool cuts = id == Method::Fast && points > kOneFastTile;
   const std::uint64_t usual = cuts ? kFastTilePoints : kMaxTilePoints;

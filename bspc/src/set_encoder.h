@@ -26,15 +26,18 @@ class SetEncoder {
         report_(report) {}
 
   /// May be called for one part of a set after the other. `sourceIndex`: of each point in the
-  /// caller's input, empty if that is its own.
-  void encode(Span<const GridPoint> points, const std::vector<std::uint64_t>& sourceIndex);
+  /// caller's input, empty if that is its own. `original`: that input, which a lossy coding
+  /// compares with; may be null for a lossless one.
+  void encode(Span<const GridPoint> points, const std::vector<std::uint64_t>& sourceIndex,
+              const PointSetView* original);
 
  private:
-  void encodePart(std::size_t offset, Span<const GridPoint> points,
-                  const std::vector<std::uint64_t>& sourceIndex);
-  void appendOrder(const tiling::TileCut& cut, std::size_t tile, std::size_t offset,
-                   const std::vector<std::uint64_t>& sourceIndex,
-                   const std::vector<std::uint32_t>& order);
+  void encodePart(std::size_t offset, Span<const GridPoint> points);
+  /// Takes a coded tile whose points' input indices, in decoded order, sourcesOf() gives.
+  void finish(FinishedTile tile, const std::vector<std::uint64_t>& sources);
+  std::vector<std::uint64_t> sourcesOf(const tiling::TileCut& cut, std::size_t tile,
+                                       std::size_t offset,
+                                       const std::vector<std::uint32_t>& order) const;
 
   TileEncoder encoder_;
   std::size_t tilePoints_;
@@ -42,6 +45,8 @@ class SetEncoder {
   SharedProgress& progress_;
   container::ContainerWriter& writer_;
   EncodeReport& report_;
+  const std::vector<std::uint64_t>* sourceIndex_ = nullptr;
+  const PointSetView* original_ = nullptr;
 };
 
 }  // namespace bspc

@@ -45,14 +45,17 @@ FinishedTile TileEncoder::encode(Span<const GridPoint> points,
   geometry::EncodedTile coded = method_.encode(tile, progress);
   FinishedTile finished;
   finished.record.method = static_cast<unsigned>(method_.id());
-  finished.record.version = method_.version();
+  finished.record.version = coded.version;
   finished.record.points = points.size();
   finished.record.lower = tile.lower;
   finished.record.extent = tile.extent;
   finished.record.coarse = std::move(coded.coarse);
-  finished.record.contentChecksum = checksumInOrder(tile, coded.order);
+  finished.record.contentChecksum = coded.decoded.empty()
+                                        ? checksumInOrder(tile, coded.order)
+                                        : container::contentChecksum(coded.decoded);
   finished.chunks = std::move(coded.layers);
   finished.order = std::move(coded.order);
+  finished.decoded = std::move(coded.decoded);
   return finished;
 }
 

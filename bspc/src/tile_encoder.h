@@ -15,6 +15,8 @@ struct FinishedTile {
   container::TileRecord record;
   std::vector<Bytes> chunks;
   std::vector<std::uint32_t> order;  ///< order[j]: index in the tile of the j-th decoded point
+  /// See EncodedTile: where points stand after a lossy coding.
+  std::vector<GridPoint> decoded;
 };
 
 /// Codes tiles, on any number of threads at a time.

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <random>
 
+#include "geometry/geometry_method.h"
+
 namespace bspc::test {
 
 namespace {
@@ -47,8 +49,8 @@ std::vector<GoldenFile> goldenFiles() {
     add("terrain_streaming", terrain(20, 1, 7), ScalarType::Float32, Layout::Streaming, 2, any);
     add("terrain_bits", terrain(20, 0.125, -3), ScalarType::Float64, Layout::Progressive, 1,
         GridRequest::withBits(9));
-    add("noise", noise(300, std::uint64_t{1} << 32), ScalarType::Float64, Layout::Progressive, 2,
-        any);
+    add("noise", noise(300, std::uint64_t{1} << geometry::findGeometryMethod(method)->maxBits()),
+        ScalarType::Float64, Layout::Progressive, 2, any);
     add("crowd", noise(3000, 12), ScalarType::Float32, Layout::Progressive, 1, any);
     add("one_point", {1, 2, 3}, ScalarType::Float32, Layout::Progressive, 1, any);
     add("empty", {}, ScalarType::Float32, Layout::Progressive, 1, any);

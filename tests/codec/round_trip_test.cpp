@@ -6,12 +6,26 @@
 
 #include "bspc/error.h"
 #include "codec/codec_support.h"
+#include "entropy/symbol_coder.h"
+#include "geometry/geometry_method.h"
 #include "support/point_sets.h"
 
 namespace bspc {
 namespace {
 
 constexpr std::uint32_t kInt32Top = 0x7FFFFFFF;
+
+/// Of the grid that the points' box spans.
+unsigned gridBits(const std::vector<GridPoint>& points) {
+  unsigned bits = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto [least, most] =
+        std::minmax_element(points.begin(), points.end(),
+                            [k](const GridPoint& a, const GridPoint& b) { return a[k] < b[k]; });
+    bits = std::max(bits, entropy::bitLength((*most)[k] - (*least)[k]));
+  }
+  return bits;
+}
 
 TEST(RoundTrip, EverySetInEveryLayoutAndMethod) {
   for (const test::NamedPoints& set : test::degenerateSets()) {
@@ -25,8 +39,15 @@ TEST(RoundTrip, EverySetInEveryLayoutAndMethod) {
         options.layout = layout;
         options.wantOrder = true;
         EncodeReport report;
-        const Bytes file = test::encoded(
-            PointSetView(xyz.data(), ScalarType::UInt32, set.points.size(), 0), options, &report);
+        const PointSetView points(xyz.data(), ScalarType::UInt32, set.points.size(), 0);
+        Bytes file;
+        try {
+          file = test::encoded(points, options, &report);
+        } catch (const Error& error) {
+          EXPECT_EQ(error.code(), ErrorCode::Unsupported) << error.what();
+          EXPECT_GT(gridBits(set.points), geometry::findGeometryMethod(method)->maxBits());
+          continue;
+        }
         EXPECT_TRUE(report.exact);
         EXPECT_EQ(report.fileBytes, file.size());
         Decoder decoder = test::open(file);

@@ -42,6 +42,12 @@ TileToDecode toDecode(const TileInput& tile, const EncodedTile& coded, unsigned 
   return decode;
 }
 
+/// Whether the method takes the grid of the tile at all.
+bool suits(const GeometryMethod& method, const TileInput& tile) {
+  const std::uint64_t longest = *std::max_element(tile.extent.begin(), tile.extent.end());
+  return longest >> method.maxBits() == 0;
+}
+
 class EveryMethod : public testing::TestWithParam<Method> {
  protected:
   const GeometryMethod& method() const { return *findGeometryMethod(GetParam()); }
@@ -52,6 +58,7 @@ TEST_P(EveryMethod, RestoresEveryPointInTheOrderItReports) {
     for (const unsigned layers : {1U, 2U, 5U, 32U}) {
       SCOPED_TRACE(set.name + ", layers: " + std::to_string(layers));
       const TileInput tile = tileOf(set.points, layers);
+      if (!suits(method(), tile)) continue;
       const EncodedTile coded = method().encode(tile, {});
       ASSERT_EQ(coded.layers.size(), layers);
       ASSERT_EQ(coded.coarse.size(), layers - 1);
@@ -103,12 +110,27 @@ void checkLayer(const GeometryMethod& method, const TileInput& tile, const Encod
 TEST_P(EveryMethod, LayersStandForTheirPointsWithinTheirSpread) {
   for (const test::NamedPoints& set : test::degenerateSets()) {
     const TileInput tile = tileOf(set.points, 4);
+    if (!suits(method(), tile)) continue;
     const EncodedTile coded = method().encode(tile, {});
     for (unsigned layer = 0; layer < 3; ++layer) {
       SCOPED_TRACE(set.name + ", layer " + std::to_string(layer));
       checkLayer(method(), tile, coded, layer);
     }
   }
+}
+
+TEST_P(EveryMethod, RefusesGridsBeyondItsOwnByName) {
+  if (method().maxBits() == 32) GTEST_SKIP() << "takes every grid";
+  const std::vector<GridPoint> points{{0, 0, 0}, {0, 1U << method().maxBits(), 0}};
+  try {
+    method().encode(tileOf(points, 1), {});
+    FAIL() << "coded";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::Unsupported);
+    EXPECT_NE(std::string(error.what()).find("kd"), std::string::npos) << error.what();
+  }
+  const std::vector<GridPoint> largest{{0, 0, 0}, {0, (1U << method().maxBits()) - 1, 0}};
+  EXPECT_NO_THROW(method().encode(tileOf(largest, 1), {}));
 }
 
 TEST_P(EveryMethod, StaysWithinItsLimits) {

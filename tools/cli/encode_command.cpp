@@ -37,6 +37,8 @@ struct EncodeArguments {
   std::uint64_t tilePoints = 0;
   unsigned threads = 0;
   double memory = 1;
+  std::uint64_t stopPoints = 0;
+  std::optional<unsigned> stopLevel;
   bool positionsOnly = false;
   bool dropNonFinite = false;
   bool force = false;
@@ -71,6 +73,8 @@ EncodeOptions encodeOptions(const EncodeArguments& args) {
   options.layers = args.layers;
   options.tilePoints = args.tilePoints;
   options.threads = args.threads;
+  options.stopPoints = args.stopPoints;
+  options.stopLevel = args.stopLevel;
   if (!args.method.empty()) options.method = methodFromName(args.method);
   // To a pipe the index goes last, so that a reader of the pipe sees tiles as they come.
   const std::string layout =
@@ -189,6 +193,17 @@ void addEncodeCommand(CLI::App& app) {
   command->add_option("--layout", args->layout, "Index in front (the default) or at the end")
       ->option_text("progressive|streaming")
       ->check(CLI::IsMember({"progressive", "streaming"}))
+      ->group("Coding");
+  command
+      ->add_option("--stop-points", args->stopPoints,
+                   "Lossy: cells of at most N points stay undivided, each\n"
+                   "point coming back as the middle of its cell (bsp, kd)")
+      ->option_text("N")
+      ->group("Coding");
+  command
+      ->add_option("--stop-level", args->stopLevel,
+                   "Lossy: so do cells that L cuts have made (bsp, kd)")
+      ->option_text("L")
       ->group("Coding");
   command
       ->add_option("--bits", args->bits,

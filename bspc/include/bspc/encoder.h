@@ -33,7 +33,12 @@ struct EncodeOptions {
   /// to read and the file larger.
   std::uint64_t tilePoints = 0;
   unsigned threads = 0;  ///< 0: as many as the machine has; the file does not depend on it
-  unsigned layers = 0;   ///< 1 … kMaxLayers; 0: by the number of points, 1 below 4,096
+  /// Lossy, for the methods bsp and kd (an error with others): cells of at most so many points
+  /// stay undivided, and each of their points comes back as the middle of its cell.
+  std::uint64_t stopPoints = 0;
+  /// Likewise for the cells of this level: those that so many cuts have made.
+  std::optional<unsigned> stopLevel;
+  unsigned layers = 0;  ///< 1 … kMaxLayers; 0: by the number of points, 1 below 4,096
   Layout layout = Layout::Progressive;
   bool wantOrder = false;  ///< fill EncodeReport::order
   ProgressCallback progress;
@@ -50,7 +55,7 @@ struct EncodeReport {
   unsigned layers = 1;
   std::uint64_t fileBytes = 0;
   std::uint64_t geometryBytes = 0;  ///< of them, geometry payload
-  bool exact = true;                ///< see GridFit
+  bool exact = true;                ///< see GridFit; what a lossy coding adds counts
   std::array<double, 3> maxError{};
   /// Input index of the j-th point that a decoder returns; only if wantOrder.
   std::vector<std::uint64_t> order;

@@ -65,8 +65,9 @@ class SymbolWriter {
     encoder_.encodeBit(value, one);
     return value;
   }
-  template <unsigned Size>
-  unsigned symbol(AdaptiveSymbols<Size>& model, unsigned value) {
+  /// A symbol of an AdaptiveSymbols or GaussianSymbols.
+  template <class Model>
+  unsigned symbol(Model& model, unsigned value) {
     encoder_.encode(model.cumulative(value), model.frequency(value), model.total());
     model.update(value);
     return value;
@@ -109,8 +110,8 @@ class SymbolReader {
     return value;
   }
   bool fixedBit(std::uint32_t one, bool /*value*/) { return decoder_.decodeBit(one); }
-  template <unsigned Size>
-  unsigned symbol(AdaptiveSymbols<Size>& model, unsigned /*value*/) {
+  template <class Model>
+  unsigned symbol(Model& model, unsigned /*value*/) {
     std::uint32_t start = 0;
     const unsigned value = model.find(decoder_.position(model.total()), start);
     decoder_.consume(start, model.frequency(value));

@@ -2,8 +2,10 @@
 
 #include <array>
 
+#include "geometry/bsp/bsp_method.h"
 #include "geometry/fast/fast_method.h"
 #include "geometry/kd/kd_method.h"
+#include "geometry/partition/partition_method.h"
 
 namespace bspc {
 
@@ -14,7 +16,13 @@ struct NamedMethod {
   const char* name;
 };
 
-constexpr std::array<NamedMethod, 2> kMethods{{{Method::Kd, "kd"}, {Method::Fast, "fast"}}};
+constexpr std::array<NamedMethod, 5> kMethods{{
+    {Method::Kd, "kd"},
+    {Method::Fast, "fast"},
+    {Method::Bsp, "bsp"},
+    {Method::Octree, "octree"},
+    {Method::GenCode, "gencode"},
+}};
 
 }  // namespace
 
@@ -44,11 +52,18 @@ namespace geometry {
 const GeometryMethod* findGeometryMethod(Method id) {
   static const KdMethod kd;
   static const FastMethod fast;
+  static const BspMethod bsp;
   switch (id) {
     case Method::Kd:
       return &kd;
     case Method::Fast:
       return &fast;
+    case Method::Bsp:
+      return &bsp;
+    case Method::Octree:
+      return &octreeMethod();
+    case Method::GenCode:
+      return &genCodeMethod();
   }
   return nullptr;
 }

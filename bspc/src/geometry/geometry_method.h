@@ -41,6 +41,10 @@ struct EncodedTile {
   std::vector<Bytes> layers;         ///< TileInput::layers payloads, coarse to fine
   std::vector<LayerSummary> coarse;  ///< of all layers but the last
   std::vector<std::uint32_t> order;  ///< order[j]: input index of the j-th decoded point
+  /// Where the points stand after a lossy coding, relative to TileInput::lower, in decoded order;
+  /// empty if every point stands where it was.
+  std::vector<GridPoint> decoded;
+  unsigned version = 0;  ///< of the method that the payloads need
 };
 
 /// A tile to be decoded. Nothing in it can be trusted but that the payloads are the bytes that
@@ -72,8 +76,12 @@ class GeometryMethod {
   virtual ~GeometryMethod() = default;
 
   virtual Method id() const = 0;
-  /// Version that encode() writes; decode() takes every version up to it.
+  /// The newest version that encode() writes; decode() takes every version up to it.
   virtual unsigned version() const = 0;
+  /// Bits that the grid of a tile may have along each axis.
+  virtual unsigned maxBits() const { return 32; }
+  /// Whether stopPoints and stopLevel mean anything to it.
+  virtual bool canStop() const { return false; }
 
   virtual EncodedTile encode(const TileInput& tile, const PointProgress& progress) const = 0;
 

@@ -118,6 +118,13 @@ class LargeSetEncoder {
                       " bytes, and there is no scratch storage; raise the limit");
     }
     lattice::validate(options_.encoding.grid);
+    if (options_.encoding.stopPoints > 0 || options_.encoding.stopLevel) {
+      throw Error(ErrorCode::InvalidArgument,
+                  "the points do not fit into the memory limit of " +
+                      std::to_string(options_.memoryBytes) +
+                      " bytes, and lossy stops, whose error is reported, need them all; raise the "
+                      "limit");
+    }
     store(std::move(first), reader);
     report_.points = set_->size();
     report_.dropped = set_->dropped();
@@ -209,7 +216,7 @@ class LargeSetEncoder {
     for (std::size_t part = 0; part < parts_->parts(); ++part) {
       for (std::uint64_t first = 0; first < parts_->size(part); first += most) {
         const std::uint64_t count = std::min(most, parts_->size(part) - first);
-        encoder.encode(parts_->load(part, first, count), {});
+        encoder.encode(parts_->load(part, first, count), {}, nullptr);
       }
     }
     writer.finish();

@@ -5,14 +5,17 @@
 #include <memory>
 
 #include "bspc/error.h"
+#include "geometry/cell_output.h"
 #include "geometry/kd/kd_order.h"
 #include "geometry/kd/kd_schedule.h"
 #include "geometry/kd/kd_tree_coder.h"
-#include "geometry/output_budget.h"
 
 namespace bspc::geometry {
 
 namespace {
+
+/// Streams of this version start with the rule that a lossy coding stops by.
+constexpr unsigned kLossyVersion = 1;
 
 /// Points between two calls of the progress callback.
 constexpr std::uint64_t kProgressStep = 1U << 16;
@@ -21,7 +24,10 @@ constexpr std::uint64_t kProgressStep = 1U << 16;
 class SortedPoints {
  public:
   SortedPoints(const TileInput& tile, const KdOrder& order, const PointProgress& progress)
-      : tile_(tile), order_(order), progress_(progress) {}
+      : tile_(tile),
+        order_(order),
+        progress_(progress),
+        lossy_(StopRule::of(tile.wishes).lossy()) {}
 
   std::uint64_t countLower(const KdCell& cell, unsigned depth) const {
     return order_.countLower(cell.first, cell.count, depth);
@@ -31,18 +37,25 @@ class SortedPoints {
     for (unsigned k = 0; k < 3; ++k) point[k] -= tile_.lower[k];
     return point;
   }
-  void emit(const GridPoint& /*point*/, std::uint64_t count, const KdCell& cell) {
+  void emit(const GridPoint& point, std::uint64_t count, const KdCell& cell) {
+    if (lossy_) decoded_.insert(decoded_.end(), static_cast<std::size_t>(count), point);
     const std::uint64_t done = cell.first + count;
     if (done < next_) return;
     next_ = done + kProgressStep;
     if (progress_) progress_(done);
   }
+  void emitUndivided(const GridPoint& middle, const KdCell& cell) {
+    decoded_.insert(decoded_.end(), static_cast<std::size_t>(cell.count), middle);
+  }
   static void cellsInMemory(std::uint64_t /*cells*/) {}
+  std::vector<GridPoint> takeDecoded() { return std::move(decoded_); }
 
  private:
   const TileInput& tile_;
   const KdOrder& order_;
   const PointProgress& progress_;
+  bool lossy_;
+  std::vector<GridPoint> decoded_;  ///< of a lossy coding
   std::uint64_t next_ = kProgressStep;
 };
 
@@ -50,47 +63,24 @@ class SortedPoints {
 class CollectedPoints {
  public:
   CollectedPoints(const TileToDecode& tile, const PointProgress& progress, DecodedTile& out)
-      : tile_(tile),
-        progress_(progress),
-        out_(out),
-        budget_(tile),
-        ownCells_(tile.cellLevel && *tile.cellLevel + 1 == tile.layers) {}
+      : output_(tile, progress, out) {}
 
   static std::uint64_t countLower(const KdCell& /*cell*/, unsigned /*depth*/) { return 0; }
   static GridPoint at(std::uint64_t /*j*/) { return {}; }
 
   void emit(const GridPoint& point, std::uint64_t count, const KdCell& cell) {
-    const std::uint64_t id = ownCells_ ? places_++ : cell.id;
-    for (std::uint64_t left = count; left > 0; --left) append(point, 1, id);
+    output_.leaf(point, count, cell.id);
   }
-  void emitRepresentative(const GridPoint& point, const KdCell& cell) {
-    append(point, cell.count, cell.id);
+  void emitUndivided(const GridPoint& point, const KdCell& cell) {
+    output_.leaf(point, cell.count, cell.id);
   }
   /// A level of the tree at most doubles the cells, so this is called often enough.
-  void cellsInMemory(std::uint64_t cells) const { budget_.checkBytes(cells * sizeof(KdCell)); }
+  void cellsInMemory(std::uint64_t cells) const { output_.checkBytes(cells * sizeof(KdCell)); }
+  CellOutput& output() { return output_; }
 
  private:
-  void append(const GridPoint& point, std::uint64_t count, std::uint64_t id) {
-    budget_.beforeAppend(out_);
-    out_.points.push_back(point);
-    if (tile_.wantCounts) out_.counts.push_back(count);
-    if (tile_.cellLevel) out_.cellIds.push_back(id);
-    if (progress_ && out_.points.size() % kProgressStep == 0) progress_(out_.points.size());
-  }
-
-  const TileToDecode& tile_;
-  const PointProgress& progress_;
-  DecodedTile& out_;
-  OutputBudget budget_;
-  bool ownCells_;  ///< ids are asked of the last layer, whose cells are single grid positions
-  std::uint64_t places_ = 0;
+  CellOutput output_;
 };
-
-/// Cells that the layer is to have: a quarter of the next finer one's, the last being the points.
-std::uint64_t enoughCells(std::uint64_t points, unsigned layer, unsigned layers) {
-  const unsigned shift = 2 * (layers - 1 - layer);
-  return shift < 64 ? std::max<std::uint64_t>(points >> shift, 1) : 1;
-}
 
 using Decoding = KdTreeCoder<entropy::SymbolReader, CollectedPoints>;
 
@@ -99,13 +89,11 @@ void numberCells(std::vector<KdCell>& cells) {
   for (KdCell& cell : cells) cell.id = id++;
 }
 
-/// A coarse level is shown by the middle of the part of each cell that lies in the tile's box.
-void emitRepresentatives(Decoding& tree, CollectedPoints& points) {
-  for (const KdCell& cell : tree.frontier()) {
-    GridPoint middle = cell.lower;
-    for (unsigned k = 0; k < 3; ++k) middle[k] += tree.lastIndex(cell, tree.depth(), k) / 2;
-    points.emitRepresentative(middle, cell);
-  }
+/// Greatest distance along an axis of a point to the middle of its cell.
+std::uint32_t spreadOf(const std::vector<KdCell>& cells, const KdSchedule& schedule) {
+  unsigned least = KdSchedule::kMaxDepth;
+  for (const KdCell& cell : cells) least = std::min<unsigned>(least, cell.depth);
+  return schedule.spread(std::min(least, schedule.depth()));
 }
 
 }  // namespace
@@ -120,20 +108,25 @@ EncodedTile KdMethod::encode(const TileInput& tile, const PointProgress& progres
   const KdSchedule schedule(tile.extent);
   KdOrder order(tile, schedule);
   SortedPoints points(tile, order, progress);
+  const StopRule stop = StopRule::of(tile.wishes);
   // The models are too large for the stack of a thread.
   using Encoding = KdTreeCoder<entropy::SymbolWriter, SortedPoints>;
-  const auto tree = std::make_unique<Encoding>(schedule, points, tile.points.size());
+  const auto tree = std::make_unique<Encoding>(schedule, points, tile.points.size(), stop);
 
   EncodedTile result;
   for (unsigned layer = 0; layer + 1 < tile.layers; ++layer) {
     entropy::SymbolWriter coder;
-    tree->coarseLayer(coder, enoughCells(tile.points.size(), layer, tile.layers));
+    if (layer == 0 && stop.lossy()) tree->head(coder);
+    tree->coarseLayer(coder, cellsOfLayer(tile.points.size(), layer, tile.layers));
     result.layers.push_back(coder.finish());
-    result.coarse.push_back({tree->frontier().size(), schedule.spread(tree->depth())});
+    result.coarse.push_back({tree->frontier().size(), spreadOf(tree->frontier(), schedule)});
   }
   entropy::SymbolWriter coder;
+  if (tile.layers == 1 && stop.lossy()) tree->head(coder);
   tree->finalLayer(coder);
   result.layers.push_back(coder.finish());
+  result.decoded = points.takeDecoded();
+  result.version = stop.lossy() ? kLossyVersion : 0;
   result.order = order.takeOrder();
   return result;
 }
@@ -155,6 +148,7 @@ DecodedTile KdMethod::decode(const TileToDecode& tile, const PointProgress& prog
 
   for (unsigned layer = 0; layer < tile.payloads.size(); ++layer) {
     entropy::SymbolReader coder(tile.payloads[layer]);
+    if (layer == 0 && tile.version >= kLossyVersion) tree->head(coder);
     if (layer + 1 < tile.layers) {
       tree->coarseLayer(coder, 0);
       if (tile.cellLevel == layer) numberCells(tree->frontier());
@@ -163,7 +157,11 @@ DecodedTile KdMethod::decode(const TileToDecode& tile, const PointProgress& prog
     }
     coder.finish();
   }
-  if (tile.payloads.size() < tile.layers) emitRepresentatives(*tree, points);
+  if (tile.payloads.size() == tile.layers) return result;
+  // A coarse level is shown by the middles of its cells.
+  for (const KdCell& cell : tree->frontier()) {
+    points.output().representative(tree->middle(cell), cell.count, cell.id);
+  }
   return result;
 }
 

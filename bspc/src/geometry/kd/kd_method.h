@@ -11,7 +11,8 @@ namespace bspc::geometry {
 class KdMethod final : public GeometryMethod {
  public:
   Method id() const override { return Method::Kd; }
-  unsigned version() const override { return 0; }
+  unsigned version() const override { return 1; }
+  bool canStop() const override { return true; }
   EncodedTile encode(const TileInput& tile, const PointProgress& progress) const override;
   DecodedTile decode(const TileToDecode& tile, const PointProgress& progress) const override;
 };

@@ -9,13 +9,15 @@
 #include "geometry/geometry_method.h"
 #include "geometry/kd/kd_count_model.h"
 #include "geometry/kd/kd_schedule.h"
+#include "geometry/stop_rule.h"
 
 namespace bspc::geometry {
 
 /// A cell of the kd-tree: a box whose sides are powers of two, and the points in it.
 struct KdCell {
   GridPoint lower{};
-  unsigned history = 0;  ///< see KdCountModel::Context
+  std::uint16_t history = 0;  ///< see KdCountModel::Context
+  std::uint16_t depth = 0;
   std::uint64_t count = 0;
   std::uint64_t first = 0;  ///< number of points in the leaves before it
   std::uint64_t id = 0;     ///< of its ancestor in the layer that cell ids are asked of
@@ -27,13 +29,15 @@ struct KdCell {
 ///   std::uint64_t countLower(const KdCell&, unsigned depth)   points in the lower half
 ///   GridPoint at(std::uint64_t j)                             the j-th leaf point
 ///   void emit(const GridPoint&, std::uint64_t count, const KdCell&)
+///   void emitUndivided(const GridPoint&, const KdCell&)       a cell that a lossy coding stops at
 ///   void cellsInMemory(std::uint64_t cells)                   throws if they are too many
 /// On the decoder's side the first two return anything; on the encoder's emit() may do nothing.
 template <class Coder, class Points>
 class KdTreeCoder {
  public:
-  KdTreeCoder(const KdSchedule& schedule, Points& points, std::uint64_t count)
-      : schedule_(schedule), points_(points) {
+  KdTreeCoder(const KdSchedule& schedule, Points& points, std::uint64_t count,
+              const StopRule& stop = {})
+      : schedule_(schedule), points_(points), stop_(stop), lossy_(stop.lossy()) {
     if (count > 0) {
       KdCell root;
       root.count = count;
@@ -41,7 +45,12 @@ class KdTreeCoder {
     }
   }
 
-  unsigned depth() const { return depth_; }
+  /// The stop rule; in front of the first layer, in streams of version 1 only.
+  void head(Coder& coder) {
+    stop_.code(coder);
+    lossy_ = stop_.lossy();
+  }
+
   std::vector<KdCell>& frontier() { return frontier_; }
 
   /// One coarse layer: all cells are split level by level until at least `enough` cells hold
@@ -50,7 +59,13 @@ class KdTreeCoder {
     coder_ = &coder;
     while (depth_ < schedule_.depth() && coder.bit(deeper_, frontier_.size() < enough)) {
       std::vector<KdCell> next;
-      for (const KdCell& cell : frontier_) splitInto(cell, next);
+      for (const KdCell& cell : frontier_) {
+        if (stops(cell)) {
+          next.push_back(cell);
+        } else {
+          splitInto(cell, next);
+        }
+      }
       points_.cellsInMemory(frontier_.size() + next.size());
       frontier_.swap(next);
       ++depth_;
@@ -60,7 +75,7 @@ class KdTreeCoder {
   /// The last layer: every cell is refined down to its points, one after the other.
   void finalLayer(Coder& coder) {
     coder_ = &coder;
-    for (const KdCell& cell : frontier_) refine(cell, depth_);
+    for (const KdCell& cell : frontier_) refine(cell, cell.depth);
   }
 
   /// Side of the part of a cell at `depth` that lies in the tile's box, minus one.
@@ -70,11 +85,20 @@ class KdTreeCoder {
     return room < side - 1 ? room : static_cast<std::uint32_t>(side - 1);
   }
 
+  /// The middle of the part of a cell that lies in the tile's box.
+  GridPoint middle(const KdCell& cell) const {
+    GridPoint point = cell.lower;
+    for (unsigned k = 0; k < 3; ++k) point[k] += lastIndex(cell, cell.depth, k) / 2;
+    return point;
+  }
+
  private:
   struct Halves {
     KdCell lower;
     KdCell upper;
   };
+
+  bool stops(const KdCell& cell) const { return lossy_ && stop_.stops(cell.count, cell.depth); }
 
   Halves split(const KdCell& cell, unsigned depth) {
     const unsigned axis = schedule_.axis(depth);
@@ -83,6 +107,7 @@ class KdTreeCoder {
     const std::uint32_t last = lastIndex(cell, depth, axis);
     std::uint64_t inLower = cell.count;
     Halves halves{cell, cell};
+    halves.lower.depth = halves.upper.depth = static_cast<std::uint16_t>(depth + 1);
     if (last >= half) {  // otherwise the upper half lies outside the box: nothing to code
       inLower = Coder::kWriting ? points_.countLower(cell, depth) : 0;
       if (cell.count == 1) {
@@ -91,7 +116,8 @@ class KdTreeCoder {
         inLower = counts_.code(*coder_, inLower, cell.count, {cell.history, open + 1});
         constexpr unsigned kMask = (1U << KdCountModel::kHistoryBits) - 1;
         const unsigned oneSided = inLower == 0 || inLower == cell.count ? 1U : 0U;
-        halves.lower.history = halves.upper.history = ((cell.history << 1) | oneSided) & kMask;
+        halves.lower.history = halves.upper.history =
+            static_cast<std::uint16_t>(((cell.history << 1U) | oneSided) & kMask);
       }
       halves.upper.lower[axis] += half;
     }
@@ -117,7 +143,9 @@ class KdTreeCoder {
 
   // Recursion is bounded by the schedule's depth, 96.
   void refine(const KdCell& cell, unsigned depth) {
-    if (cell.count == 1) {
+    if (stops(cell)) {
+      points_.emitUndivided(middle(cell), cell);
+    } else if (cell.count == 1 && !stop_.level) {
       place(cell, depth);
     } else if (depth == schedule_.depth()) {
       points_.emit(cell.lower, cell.count, cell);
@@ -149,6 +177,8 @@ class KdTreeCoder {
 
   const KdSchedule& schedule_;
   Points& points_;
+  StopRule stop_;
+  bool lossy_;
   Coder* coder_ = nullptr;
   unsigned depth_ = 0;
   std::vector<KdCell> frontier_;
