@@ -93,9 +93,6 @@ Coordinates decodeWithBspc(const Bytes& bytes) {
   return xyz;
 }
 
-/// The efforts that bspc's methods are measured at; none is the encoder's choice.
-constexpr std::array<std::optional<unsigned>, 1> kEfforts{std::nullopt};
-
 Coder bspcCoder(Method method, std::optional<unsigned> effort) {
   EncodeOptions options;
   options.layers = 1;
@@ -115,11 +112,8 @@ std::vector<Coder> allCoders() {
                       [speed](const Coordinates& xyz) { return encodeWithDraco(xyz, speed); },
                       decodeWithDraco});
   }
-  for (const Method method : availableMethods()) {
-    for (const std::optional<unsigned> effort : kEfforts) {
-      coders.push_back(bspcCoder(method, effort));
-    }
-  }
+  coders.push_back(bspcCoder(Method::Kd, std::nullopt));
+  for (const unsigned effort : {1U, 2U, 3U, 4U}) coders.push_back(bspcCoder(Method::Fast, effort));
   return coders;
 }
 
