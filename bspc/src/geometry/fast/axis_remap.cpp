@@ -183,7 +183,8 @@ Bytes writeValues(const AxisValues& values) {
 
 AxisValues readValues(ByteView section, const std::array<bool, 3>& ranked, std::uint64_t maxValues,
                       const GridPoint& extent, const OutputBudget& budget) {
-  container::ByteReader reader(section, "the values of the axes", 0);
+  container::ByteReader reader(section, "the values of the axes of a tile",
+                               container::ByteReader::kNoOffset);
   std::uint64_t counts[3] = {};
   for (unsigned k = 0; k < 3; ++k) {
     if (!ranked[k]) continue;

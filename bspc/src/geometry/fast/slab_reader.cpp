@@ -20,7 +20,8 @@ struct Sections {
   enum { kHead, kTree, kPlane, kResiduals, kFieldStream, kRaw, kCount };
 
   explicit Sections(ByteView body) {
-    container::ByteReader reader(body, "a tile of method fast", 0);
+    container::ByteReader reader(body, "a set of points of method fast",
+                                 container::ByteReader::kNoOffset);
     std::size_t sizes[kCount] = {};
     for (unsigned s = 0; s < kRaw; ++s) sizes[s] = reader.varint32();
     const std::size_t start = reader.position();
@@ -135,7 +136,7 @@ class SlabReader {
       throw Error(ErrorCode::Corrupt, "a slab claims " + std::to_string(points) +
                                           " points, more than its tree may have");
     }
-    out_.budget().checkBytes(Tree::memory(points));
+    out_.budget().checkBytes(uvTree_->memory(points));
     plane_.resize(static_cast<std::size_t>(points));
     uvTree_->code(frame, out_.frame().scale, plane_);
     codes_.resize(plane_.size());

@@ -49,14 +49,15 @@ void remember(const Chunk& chunk, SurfaceHistory& history) {
 /// The encoder's side of codeSlabTree(), once the slabs themselves are coded.
 class PlannedSlabs {
  public:
-  using Node = std::int32_t;
+  using Node = std::uint32_t;
   explicit PlannedSlabs(const std::vector<PlanNode>& nodes) : nodes_(nodes) {}
 
   bool isSlab(Node n) const { return nodes_[n].slab; }
   unsigned heightAxis(Node n) const { return nodes_[n].heightAxis; }
   std::uint64_t countLower(Node n) const {
-    const Node lower = nodes_[n].child[0];
-    return lower < 0 ? 0 : nodes_[lower].last - nodes_[lower].first;
+    if (!nodes_[n].has(0)) return 0;
+    const PlanNode& lower = nodes_[nodes_[n].child[0]];
+    return lower.last - lower.first;
   }
   Node child(Node n, unsigned half) const { return nodes_[n].child[half]; }
   void slab(Node n, const Cell& /*cell*/, std::uint64_t /*points*/, unsigned /*axis*/) {
@@ -87,7 +88,7 @@ class SlabWriter {
     BitWriter tree;
     PlannedSlabs slabs(planner.nodes());
     codeSlabTree(tree, slabs, 0, rootCell(frame_.extent), points.size(), frame_.scale);
-    for (const std::int32_t id : slabs.order()) {
+    for (const std::uint32_t id : slabs.order()) {
       const PlanNode& node = planner.nodes()[id];
       writeSlab(node.cell, points.data() + node.first, node.last - node.first, node.heightAxis);
     }
