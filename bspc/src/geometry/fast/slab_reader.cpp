@@ -63,12 +63,12 @@ class SlabReader {
       uvCoder_ = std::make_unique<entropy::SymbolReader>(sections.views[Sections::kPlane]);
       uvTree_ = std::make_unique<Tree>(*uvCoder_, in_.raw, extraLevels);
     } else {
-      in_.gapTables = readTables(head_, defaultTables(kGapClasses, kGapCode));
+      in_.gapTables = TableSet(head_, defaultGapTables(), kGapClasses.tables());
       in_.gaps = stream(Sections::kPlane, lanes);
     }
-    in_.residualTables = readTables(head_, defaultTables(kResidualClasses, kResidualCode));
+    in_.residualTables = TableSet(head_, defaultResidualTables(), kResidualClasses.tables());
     in_.residuals = stream(Sections::kResiduals, lanes);
-    in_.fieldTables = readTables(head_, defaultFieldTables(kFields));
+    in_.fieldTables = TableSet(head_, defaultFieldTables(), kFields);
     in_.fields = stream(Sections::kFieldStream, 1);
     head_.expectEnd();
   }

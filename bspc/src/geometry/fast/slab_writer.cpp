@@ -145,26 +145,23 @@ class SlabWriter {
 
   Bytes assemble(const Bytes& tree, std::size_t points) {
     const unsigned lanes = ransLanes(points);
-    const auto code = [](const RansWriter& stream, BitWriter& head,
-                         std::vector<FrequencyTable> defaults, unsigned streamLanes) {
-      const auto counts = stream.counts(static_cast<unsigned>(defaults.size()));
-      return stream.finish(writeTables(head, counts, std::move(defaults)), streamLanes);
-    };
     BitWriter tables;
-    Bytes gaps = options_.uvTree
-                     ? uvCoder_.finish()
-                     : code(out_.gaps, tables, defaultTables(kGapClasses, kGapCode), lanes);
+    const auto code = [&tables](const RansWriter& stream, const DefaultTables& defaults,
+                                unsigned count, unsigned streamLanes) {
+      return stream.finish(writeTables(tables, stream.counts(count), defaults), streamLanes);
+    };
+    const Bytes gaps = options_.uvTree
+                           ? uvCoder_.finish()
+                           : code(out_.gaps, defaultGapTables(), kGapClasses.tables(), lanes);
     const Bytes residuals =
-        code(out_.residuals, tables, defaultTables(kResidualClasses, kResidualCode), lanes);
-    const Bytes fields = code(out_.fields, tables, defaultFieldTables(kFields), 1);
+        code(out_.residuals, defaultResidualTables(), kResidualClasses.tables(), lanes);
+    const Bytes fields = code(out_.fields, defaultFieldTables(), kFields, 1);
     const Bytes head = tables.finish();
     container::ByteWriter body;
-    for (const Bytes* section :
-         {&head, &tree, static_cast<const Bytes*>(&gaps), &residuals, &fields}) {
+    for (const Bytes* section : {&head, &tree, &gaps, &residuals, &fields}) {
       body.varint(section->size());
     }
-    for (const Bytes* section :
-         {&head, &tree, static_cast<const Bytes*>(&gaps), &residuals, &fields}) {
+    for (const Bytes* section : {&head, &tree, &gaps, &residuals, &fields}) {
       body.bytes(*section);
     }
     body.bytes(out_.raw.finish());
