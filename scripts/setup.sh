@@ -4,21 +4,23 @@ set -euo pipefail
 
 build_packages=(
   cmake ninja-build g++ python3 libc6-dev
-  libxxhash-dev libeigen3-dev libcli11-dev nlohmann-json3-dev
+  libxxhash-dev libeigen3-dev libcli11-dev liblzf-dev nlohmann-json3-dev
   libgtest-dev libbenchmark-dev
 )
 lint_packages=(clang-format clang-tidy)
 compiler_packages=(clang)
+peer_packages=(libdraco-dev)
 
 usage() {
   cat <<'END'
-Usage: scripts/setup.sh [--lint] [--compilers] [--for-download PACKAGE]
+Usage: scripts/setup.sh [--lint] [--compilers] [--peers] [--for-download PACKAGE]
 
 Installs the Debian 12 packages that building and testing bspc needs; does nothing where they are
 installed. Needs root or sudo only if something is missing.
 
   --lint                  also clang-format and clang-tidy, for scripts/lint.sh
   --compilers             also clang, for scripts/compilers.sh
+  --peers                 also the coders that benchmarks/peers compares bspc with
   --for-download PACKAGE  also make sure that apt-get knows PACKAGE, without installing it
 END
 }
@@ -34,6 +36,7 @@ while (($# > 0)); do
   case $1 in
     --lint) wanted+=("${lint_packages[@]}") ;;
     --compilers) wanted+=("${compiler_packages[@]}") ;;
+    --peers) wanted+=("${peer_packages[@]}") ;;
     --for-download)
       (($# > 1)) || die "--for-download needs the name of a package"
       to_download=$2

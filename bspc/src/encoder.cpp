@@ -1,18 +1,14 @@
 #include "bspc/encoder.h"
 
-#include <algorithm>
 #include <string>
 #include <utility>
 
 #include "bspc/error.h"
 #include "coding_plan.h"
 #include "container/container_writer.h"
-#include "lossy_error.h"
-#include "parallel.h"
 #include "progress_scale.h"
+#include "set_encoder.h"
 #include "shared_progress.h"
-#include "tile_encoder.h"
-#include "tiling/tile_cut.h"
 
 namespace bspc {
 
@@ -28,76 +24,6 @@ void refuseArrays(const PointSetView& points) {
                                           "the arrays out to store the positions");
 }
 
-/// Codes the points of one fit and hands them to a container.
-class SetEncoder {
- public:
-  SetEncoder(const PointSetView& points, const GridFit& fit, const CodingPlan& plan,
-             const EncodeOptions& options, EncodeReport& report)
-      : points_(points), fit_(fit), plan_(plan), options_(options), report_(report) {}
-
-  void run(container::ContainerWriter& writer, ProgressScale& scale) {
-    const TileEncoder encoder(*plan_.method, plan_.layers, plan_.wishes);
-    SharedProgress progress(scale, fit_.points.size());
-    // Tiles are addressed by 32-bit indices, so sets beyond that are cut into parts first.
-    constexpr std::size_t kPart = std::size_t{1} << 31;
-    for (std::size_t first = 0; first < fit_.points.size(); first += kPart) {
-      const std::size_t count = std::min(kPart, fit_.points.size() - first);
-      runPart(first, Span<const GridPoint>(fit_.points).subspan(first, count), encoder, writer,
-              progress);
-    }
-  }
-
- private:
-  void runPart(std::size_t offset, Span<const GridPoint> points, const TileEncoder& encoder,
-               container::ContainerWriter& writer, SharedProgress& progress) {
-    const tiling::TileCut cut =
-        tiling::cutTiles(points, static_cast<std::size_t>(plan_.tilePoints));
-    const auto produce = [&](std::size_t i) {
-      const std::size_t count = cut.firsts[i + 1] - cut.firsts[i];
-      if (cut.order.empty()) return encoder.encode(points, progress.piece());
-      std::vector<GridPoint> tile(count);
-      for (std::size_t j = 0; j < count; ++j) tile[j] = points[cut.order[cut.firsts[i] + j]];
-      return encoder.encode(tile, progress.piece());
-    };
-    const auto consume = [&](std::size_t i, FinishedTile tile) {
-      for (const Bytes& chunk : tile.chunks) report_.geometryBytes += chunk.size();
-      ++report_.tiles;
-      if (options_.wantOrder || !tile.decoded.empty()) {
-        const std::vector<std::uint64_t> sources = sourcesOf(cut, i, offset, tile.order);
-        if (!tile.decoded.empty()) {
-          addLossyError(points_, sources, tile.decoded, tile.record.lower, report_);
-        }
-        if (options_.wantOrder) {
-          report_.order.insert(report_.order.end(), sources.begin(), sources.end());
-        }
-      }
-      writer.addTile(std::move(tile.record), std::move(tile.chunks));
-    };
-    OrderedParallel<FinishedTile>(cut.tiles(), threadCount(options_.threads), produce)
-        .run(consume, [&progress] { progress.report(); });
-  }
-
-  /// Input indices of a tile's points, in decoded order.
-  std::vector<std::uint64_t> sourcesOf(const tiling::TileCut& cut, std::size_t tile,
-                                       std::size_t offset,
-                                       const std::vector<std::uint32_t>& order) const {
-    std::vector<std::uint64_t> sources;
-    sources.reserve(order.size());
-    for (const std::uint32_t j : order) {
-      const std::size_t inPart = cut.firsts[tile] + j;
-      const std::size_t index = offset + (cut.order.empty() ? inPart : cut.order[inPart]);
-      sources.push_back(fit_.sourceIndex.empty() ? index : fit_.sourceIndex[index]);
-    }
-    return sources;
-  }
-
-  const PointSetView& points_;
-  const GridFit& fit_;
-  const CodingPlan& plan_;
-  const EncodeOptions& options_;
-  EncodeReport& report_;
-};
-
 }  // namespace
 
 EncodeReport encode(const PointSetView& points, ByteSink& sink, const EncodeOptions& options) {
@@ -112,6 +38,7 @@ EncodeReport encode(const PointSetView& points, ByteSink& sink, const EncodeOpti
   const CodingPlan plan = planCoding(options, fit.points.size());
   EncodeReport report;
   report.method = plan.method->id();
+  report.layout = options.layout;
   report.grid = fit.grid;
   report.points = fit.points.size();
   report.dropped = fit.dropped;
@@ -122,7 +49,10 @@ EncodeReport encode(const PointSetView& points, ByteSink& sink, const EncodeOpti
   ProgressScale coding(options.progress, kGridShare, 1);
   coding.report(0);
   container::ContainerWriter writer(sink, options.layout, report.grid, report.layers);
-  SetEncoder(points, fit, plan, options, report).run(writer, coding);
+  SharedProgress progress(coding, report.points);
+  SetEncoder encoder(plan, options, progress, writer, report);
+  encoder.measureAgainst(points);
+  encoder.encode(fit.points, fit.sourceIndex);
   writer.finish();
   report.fileBytes = writer.bytesWritten();
   coding.report(1);

@@ -109,6 +109,28 @@ def write_text(path, rows, kind):
         file.write(text)
 
 
+def write_las(path, counts, scale, offset, point_format=0, mark=0):
+    """LAS 1.2; `counts` are triples of whole numbers of the scale. `mark` is set by compressors."""
+    size = (20, 28, 26, 34)[point_format]
+    header = struct.pack("<4s20xBB68xHIIBHI20x", b"LASF", 1, 2, 227, 227, 0, point_format | mark,
+                         size, len(counts))
+    with open(path, "wb") as file:
+        file.write(header + struct.pack("<12d", *scale, *offset, *[0.0] * 6))
+        for count in counts:
+            file.write(struct.pack("<3i", *count) + bytes(size - 12))
+
+
+def write_pcd(path, rows, height=1):
+    """A binary PCD file of float32."""
+    header = "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n"
+    header += "WIDTH %d\nHEIGHT %d\n" % (len(rows) // height, height)
+    header += "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS %d\nDATA binary\n" % len(rows)
+    with open(path, "wb") as file:
+        file.write(header.encode("ascii"))
+        for row in rows:
+            file.write(struct.pack("<3f", *row))
+
+
 def read_points(path):
     """The positions of a model file, sorted, as doubles; in decoded files the order is free."""
     kind = os.path.splitext(path)[1][1:]

@@ -15,6 +15,8 @@ from command_support import (
     parse_ply,
     read_ply,
     read_points,
+    write_las,
+    write_pcd,
     write_ply,
 )
 
@@ -48,6 +50,11 @@ class Usage(CommandTest):
             ("decode", "a.bspc"),
             ("decode", "a.bspc", "a.unknown"),
             ("decode", "a.bspc", "a.out", "--to", "unknown"),
+            ("decode", "a.bspc", "a.las"),
+            ("decode", "a.bspc", "a.laz"),
+            ("decode", "a.bspc", "a.pcd"),
+            ("decode", "a.bspc", "a.out", "--to", "las"),
+            ("decode", "a.bspc", "-", "--to", "pcd"),
             ("info",),
             ("verify",),
         ):
@@ -179,6 +186,21 @@ class Content(CommandTest):
         self.write_bytes("a.obj", b"v 0 0 0\nv 0 1 0\nv 1 0 0\nf 1 2 3\n")
         self.assertEqual(self.check_other_content("a.obj", "face"), corners)
 
+    def test_attributes_of_scans_are_refused_unless_left_out_by_name(self):
+        write_las(self.path("a.las"), [(1, 2, 3), (5, 6, 7)], (1, 1, 1), (0, 0, 0), point_format=2)
+        self.assertEqual(
+            self.check_other_content("a.las", "intensity", "colours"), [(1, 2, 3), (5, 6, 7)]
+        )
+        points = lattice_cloud(20)
+        write_pcd(self.path("a.pcd"), points, height=4)
+        self.assertEqual(self.check_other_content("a.pcd", "4 rows of 5"), sorted(points))
+
+    def test_laz_is_refused_with_the_way_out(self):
+        write_las(self.path("a.laz"), [(1, 2, 3)], (1, 1, 1), (0, 0, 0), mark=128)
+        message = self.refuse("a.laz", "encode", "a.laz", "a.bspc")
+        for piece in ("LAZ", "las2las", "pdal"):
+            self.assertIn(piece, message)
+
     def test_verify_tells_the_original_from_another_model(self):
         points = lattice_cloud(500)
         write_ply(self.path("a.ply"), points)
@@ -216,7 +238,7 @@ class Info(CommandTest):
         self.assertEqual(info["scalarType"], "float32")
         self.assertEqual(info["step"], [1, 1, 1])
         self.assertEqual(info["bounds"], [[0, 4095]] * 3)
-        self.assertEqual((info["methods"], info["tiles"]), ({"kd": 1}, 1))
+        self.assertEqual((info["methods"], info["tiles"]), ({"fast": 1}, 1))
         self.assertEqual(info["wholeLayers"], 3)
         self.assertEqual(len(info["layers"]), 3)
         self.assertEqual(info["layers"][2]["points"], 6002)
@@ -227,7 +249,7 @@ class Info(CommandTest):
         write_ply(self.path("a.ply"), lattice_cloud(6000))
         self.succeed("encode", "a.ply", "a.bspc", "--layout", "streaming")
         text = self.succeed("info", "a.bspc")
-        for piece in (b"a.bspc", b"streaming", b"6,000", b"float32", b"kd"):
+        for piece in (b"a.bspc", b"streaming", b"6,000", b"float32", b"fast"):
             self.assertIn(piece, text)
 
 
@@ -236,7 +258,7 @@ class LevelsOfDetail(CommandTest):
         super().setUp()
         write_ply(self.path("a.ply"), lattice_cloud(5000) + lattice_cloud(300) * 3)
         self.total = 5900
-        self.succeed("encode", "a.ply", "a.bspc", "--layers", "4")
+        self.succeed("encode", "a.ply", "a.bspc", "--layers", "4", "--method", "kd")
         self.layers = json.loads(self.succeed("info", "a.bspc", "--json"))["layers"]
 
     def decode(self, *options):

@@ -13,6 +13,8 @@ from command_support import (
     lattice_cloud,
     read_ply,
     read_points,
+    write_las,
+    write_pcd,
     write_ply,
     write_text,
 )
@@ -60,6 +62,47 @@ class Formats(RoundTripTest):
         self.succeed("encode", "points", "file.bspc", "--from", "xyz")
         self.succeed("decode", "file.bspc", "restored", "--to", "csv")
         self.assertEqual(self.read_bytes("restored").count(b","), 2 * (len(self.POINTS) + 1))
+
+
+class Scans(RoundTripTest):
+    """The formats of scanners, which are read only."""
+
+    def check_las(self, scale, offset):
+        source = random.Random(8)
+        counts = [tuple(source.randint(-(10**6), 10**6) for _ in range(3)) for _ in range(3000)]
+        write_las(self.path("in.las"), counts, scale, offset)
+        points = [tuple(n * s + o for n, s, o in zip(c, scale, offset)) for c in counts]
+        self.assertEqual(self.restore("--positions-only", model="in.las"), sorted(points))
+        self.assertIn(b"exact", self.succeed("verify", "file.bspc", "--against", "in.las"))
+        steps = json.loads(self.succeed("info", "file.bspc", "--json"))["step"]
+        for step, wanted in zip(steps, scale):
+            self.assertAlmostEqual(step / wanted, 1, places=12)
+
+    def test_las_is_exact_at_the_step_of_its_scale(self):
+        self.check_las((0.01,) * 3, (0, 0, 0))
+        self.check_las((0.01,) * 3, (637000, 851000, 0))
+        self.check_las((0.001, 0.001, 0.0005), (637123.456, 4851234.567, 12.5))
+        self.check_las((0.0003048006096012192,) * 3, (100000.25, 200000.125, 1 / 3))
+
+    def test_las_goes_through_a_pipe(self):
+        write_las(self.path("in.las"), [(1, 2, 3), (4, 5, 6)], (1, 1, 1), (0, 0, 0))
+        data = self.read_bytes("in.las")
+        self.succeed("encode", "-", "a.bspc", "--from", "las", "--positions-only", input=data)
+        self.succeed("decode", "a.bspc", "back.ply")
+        self.assertEqual(read_points(self.path("back.ply")), [(1, 2, 3), (4, 5, 6)])
+
+    def test_pcd_comes_back(self):
+        points = [(x / 8, y / 4, -z / 2) for x, y, z in lattice_cloud(300, size=999)]
+        write_pcd(self.path("in.pcd"), points)
+        self.assertEqual(self.restore(model="in.pcd"), sorted(points))
+        self.assertEqual(read_ply(self.path("back.ply"))[0][0], ("x", "float"))
+
+    def test_empty_places_of_an_organised_cloud_can_be_left_out(self):
+        points = lattice_cloud(300)
+        write_pcd(self.path("in.pcd"), points + [(float("nan"),) * 3] * 20, height=10)
+        self.refuse("in.pcd", "encode", "in.pcd", "a.bspc", "--positions-only")
+        options = ("--positions-only", "--drop-nonfinite")
+        self.assertEqual(self.restore(*options, model="in.pcd"), sorted(points))
 
 
 class Types(RoundTripTest):

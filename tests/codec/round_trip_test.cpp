@@ -144,7 +144,9 @@ TEST(RoundTrip, StrideSkipsWhatIsNotAPosition) {
 
 TEST(LevelOfDetail, CountsAddUpAndCellsHoldThem) {
   const std::vector<GridPoint> points = test::scannedSphere(1, 30000, kInt32Top);
-  const Bytes file = test::encoded(points);
+  EncodeOptions encoding;
+  encoding.method = Method::Kd;
+  const Bytes file = test::encoded(points, encoding);
   Decoder decoder = test::open(file);
   const FileInfo& info = decoder.info();
   ASSERT_GT(info.layers.size(), 2U);

@@ -9,5 +9,6 @@ void addEncodeCommand(CLI::App& app);
 void addDecodeCommand(CLI::App& app);
 void addInfoCommand(CLI::App& app);
 void addVerifyCommand(CLI::App& app);
+void addJoinCommand(CLI::App& app);
 
 }  // namespace bspc::cli

@@ -7,12 +7,15 @@
 #include "bspc/decoder.h"
 #include "bspc/encoder.h"
 #include "bspc/error.h"
+#include "bspc/stream_encoder.h"
 #include "cli/commands.h"
 #include "cli/input_file.h"
+#include "cli/interrupts.h"
 #include "cli/model_files.h"
 #include "cli/naming.h"
 #include "cli/output_file.h"
 #include "cli/progress_bar.h"
+#include "cli/scratch_file.h"
 #include "cli/text.h"
 #include "cli/usage_error.h"
 
@@ -29,9 +32,13 @@ struct EncodeArguments {
   std::string layout;
   unsigned bits = 0;
   double precision = 0;
+  std::optional<unsigned> effort;
   unsigned layers = 0;
   std::uint64_t stopPoints = 0;
   std::optional<unsigned> stopLevel;
+  std::uint64_t tilePoints = 0;
+  unsigned threads = 0;
+  double memory = 1;
   bool positionsOnly = false;
   bool dropNonFinite = false;
   bool force = false;
@@ -59,9 +66,15 @@ GridRequest gridRequest(const EncodeArguments& args) {
 EncodeOptions encodeOptions(const EncodeArguments& args) {
   EncodeOptions options;
   options.grid = gridRequest(args);
+  options.effort = args.effort;
+  if (args.effort && !args.method.empty() && args.method != methodName(Method::Fast)) {
+    throw UsageError("method " + args.method + " has no --effort; leave one of the two out");
+  }
   options.layers = args.layers;
   options.stopPoints = args.stopPoints;
   options.stopLevel = args.stopLevel;
+  options.tilePoints = args.tilePoints;
+  options.threads = args.threads;
   if (!args.method.empty()) options.method = methodFromName(args.method);
   // To a pipe the index goes last, so that a reader of the pipe sees tiles as they come.
   const std::string layout =
@@ -87,27 +100,35 @@ void printReport(const EncodeArguments& args, const std::string& name, const Enc
   }
   std::cerr << "; " << errorText(report.exact, report.maxError) << "; " << methodName(report.method)
             << ", " << gridText(report.grid);
+  const bool wanted = args.layout == "streaming" || args.output == "-";
+  if (report.layout == Layout::Streaming && !wanted) {
+    std::cerr << "; streaming layout, for it takes more than --memory " << args.memory;
+  }
   if (report.dropped > 0) {
     std::cerr << "; " << withCommas(report.dropped) << " non-finite points left out";
   }
   std::cerr << '\n';
 }
 
-formats::Model readModel(const EncodeArguments& args) {
-  ProgressBar bar("reading", args.quiet);
-  return readModelFile(args.input, args.from, args.positionsOnly, bar.callback());
-}
-
 void runEncode(const EncodeArguments& args) {
-  EncodeOptions options = encodeOptions(args);
+  StreamOptions options;
+  options.encoding = encodeOptions(args);
+  options.memoryBytes = static_cast<std::uint64_t>(args.memory * (1 << 30));
+  options.scratch = [] { return std::make_unique<ScratchFile>(); };
   OutputFile output(args.output, args.force);
-  const formats::Model model = readModel(args);
   StreamSink sink(output.stream());
   EncodeReport report;
   {
-    ProgressBar bar("encoding", args.quiet);
-    options.progress = bar.callback();
-    report = naming(args.input, [&] { return encode(model.view(), sink, options); });
+    ProgressBar reading("reading", args.quiet);
+    ProgressBar encoding("encoding", args.quiet);
+    ModelPoints points(args.input, args.from, args.positionsOnly, reading.callback());
+    options.encoding.grid.knownLattice = points.info().lattice;
+    options.encoding.progress = [&, draw = encoding.callback()](double share) {
+      if (!points.ended()) return !interrupted();
+      reading.clear();
+      return draw(share);
+    };
+    report = naming(args.input, [&] { return encodeStream(points, sink, options); });
     output.commit();
   }
   if (!args.quiet) printReport(args, output.name(), report);
@@ -126,7 +147,9 @@ std::string knownMethods() {
 void addEncodeCommand(CLI::App& app) {
   auto args = std::make_shared<EncodeArguments>();
   CLI::App* command = app.add_subcommand("encode", "Compress a model's points to a .bspc file");
-  command->add_option("input", args->input, "Model: PLY, OBJ, OFF, XYZ or CSV; - reads a pipe")
+  command
+      ->add_option("input", args->input,
+                   "Model: PLY, OBJ, OFF, XYZ, CSV, LAS or PCD; - reads a pipe")
       ->required();
   command->add_option("output", args->output, "The .bspc file; - writes to a pipe")->required();
   const auto methods = [](const std::string& name) {
@@ -136,15 +159,36 @@ void addEncodeCommand(CLI::App& app) {
   const auto positive = [](const std::string& text) {
     double value = 0;
     const bool good = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0;
-    return good ? std::string() : "the precision must be a finite number above 0";
+    return good ? std::string() : "must be a finite number above 0";
   };
   command->add_option("--method", args->method, "How to code positions: " + knownMethods())
       ->type_name("NAME")
       ->check(methods)
       ->group("Coding");
+  command
+      ->add_option("--effort", args->effort,
+                   "1 (quickest) to 4 (smallest), default 2, of method fast, the default method")
+      ->option_text("N")
+      ->check(CLI::Range(1U, 4U))
+      ->group("Coding");
   command->add_option("--layers", args->layers, "Layers of detail, 1 to 32 (default: by size)")
       ->option_text("N")
       ->check(CLI::Range(1U, kMaxLayers))
+      ->group("Coding");
+  command
+      ->add_option("--tile-points", args->tilePoints, "Most points of a tile (default: by method)")
+      ->option_text("N")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{0xFFFFFFFF}))
+      ->group("Coding");
+  command
+      ->add_option("--memory", args->memory,
+                   "Memory to use, in GiB (default 1); a larger set goes through a temporary\n"
+                   "file and gets the streaming layout")
+      ->option_text("GIB")
+      ->check(positive)
+      ->group("Coding");
+  command->add_option("--threads", args->threads, "Threads (default: as many as the machine has)")
+      ->option_text("N")
       ->group("Coding");
   command->add_option("--layout", args->layout, "Index in front (the default) or at the end")
       ->option_text("progressive|streaming")
@@ -185,7 +229,7 @@ void addEncodeCommand(CLI::App& app) {
   command->add_flag("--positions-only", args->positionsOnly,
                     "Leave out faces and every property but the positions");
   command->add_option("--from", args->from, "Format of the input where its name does not tell")
-      ->type_name("ply|obj|off|xyz|csv");
+      ->type_name("ply|obj|off|xyz|csv|las|pcd");
   command->add_flag("-f,--force", args->force, "Replace an existing output file");
   command->add_flag("-q,--quiet", args->quiet, "Print nothing but errors");
   command->callback([args] { runEncode(*args); });
@@ -194,6 +238,7 @@ void addEncodeCommand(CLI::App& app) {
       "  bspc encode scan.ply scan.bspc                    as exact as the data are\n"
       "  bspc encode scan.ply scan.bspc --precision 0.001  to the millimetre, if in metres\n"
       "  bspc encode bunny.off bunny.bspc --bits 12 --positions-only\n"
+      "  bspc encode tile.las tile.bspc --positions-only   exact, at the step of the file\n"
       "  cat scan.ply | bspc encode - - --from ply > scan.bspc");
 }
 

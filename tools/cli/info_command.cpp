@@ -7,7 +7,9 @@
 #include "cli/commands.h"
 #include "cli/input_file.h"
 #include "cli/naming.h"
+#include "cli/query_options.h"
 #include "cli/text.h"
+#include "cli/usage_error.h"
 
 namespace bspc::cli {
 
@@ -19,6 +21,8 @@ struct InfoArguments {
   std::string input;
   bool json = false;
   bool partial = false;
+  bool query = false;
+  QueryArguments part;
 };
 
 double bitsPerPoint(std::uint64_t bytes, std::uint64_t points) {
@@ -102,12 +106,35 @@ void printText(const std::string& name, const FileInfo& info) {
   }
 }
 
+/// What decoding a part would read.
+void printQuery(const InfoArguments& args, const std::string& name, const Decoder& decoder) {
+  const FileInfo& info = decoder.info();
+  const QueryCost cost = decoder.cost(decodeOptions(args.part));
+  if (args.json) {
+    const Json json{{"tiles", cost.tiles},     {"tilesOfFile", info.tiles.size()},
+                    {"level", cost.level},     {"pointsAtMost", cost.points},
+                    {"bytesRead", cost.bytes}, {"fileBytes", info.fileBytes}};
+    std::cout << json.dump(2) << '\n';
+    return;
+  }
+  const double share = static_cast<double>(cost.bytes) / static_cast<double>(info.fileBytes);
+  std::cout << name << ": reads " << withCommas(cost.bytes) << " of " << withCommas(info.fileBytes)
+            << " bytes (" << fixed(100 * share, 2) << " %), " << withCommas(cost.tiles) << " of "
+            << withCommas(info.tiles.size()) << " tiles up to level " << cost.level << ", at most "
+            << withCommas(cost.points) << " points\n";
+}
+
 void runInfo(const InfoArguments& args) {
+  if (args.part.any() && !args.query) {
+    throw UsageError("--level, --max-points and --box go with --query");
+  }
   InputFile input(args.input);
   OpenOptions options;
   options.allowPartial = args.partial;
   const Decoder decoder = naming(input.name(), [&] { return Decoder(input.source(), options); });
-  if (args.json) {
+  if (args.query) {
+    naming(input.name(), [&] { printQuery(args, input.name(), decoder); });
+  } else if (args.json) {
     std::cout << toJson(decoder.info()).dump(2) << '\n';
   } else {
     printText(input.name(), decoder.info());
@@ -123,11 +150,15 @@ void addInfoCommand(CLI::App& app) {
   command->add_option("file", args->input, "The .bspc file; - reads a pipe")->required();
   command->add_flag("--json", args->json, "Print JSON");
   command->add_flag("--partial", args->partial, "Accept a file that was cut short");
+  command->add_flag("--query", args->query,
+                    "Say what decoding a part would read (all without the options below)");
+  addQueryOptions(*command, args->part);
   command->callback([args] { runInfo(*args); });
   command->footer(
       "Examples:\n"
       "  bspc info scan.bspc\n"
-      "  bspc info scan.bspc --json | jq .points");
+      "  bspc info scan.bspc --json | jq .points\n"
+      "  bspc info scan.bspc --query --box 0,0,0,10,10,2.5");
 }
 
 }  // namespace bspc::cli

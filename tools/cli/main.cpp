@@ -30,6 +30,7 @@ int run(int argc, char** argv) {
   bspc::cli::addDecodeCommand(app);
   bspc::cli::addInfoCommand(app);
   bspc::cli::addVerifyCommand(app);
+  bspc::cli::addJoinCommand(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -24,6 +24,7 @@ struct VerifyArguments {
   std::string from;
   bool dropNonFinite = false;
   bool lossy = false;
+  unsigned threads = 0;
   bool quiet = false;
 };
 
@@ -101,6 +102,7 @@ void runVerify(const VerifyArguments& args) {
     ProgressBar bar("verifying", args.quiet);
     DecodeOptions options;
     options.progress = bar.callback();
+    options.threads = args.threads;
     decoded = naming(input.name(), [&] { return decoder.decode(options); });
   }
   std::string result = "every checksum holds, " + withCommas(decoded.points.size()) + " points";
@@ -122,7 +124,8 @@ void addVerifyCommand(CLI::App& app) {
   command->add_option("file", args->input, "The .bspc file; - reads a pipe")->required();
   CLI::Option* against = command->add_option("--against", args->against,
                                              "The model it was made from, to compare with");
-  command->add_option("--from", args->from, "Format of that model where its name does not tell");
+  command->add_option("--from", args->from, "Format of that model where its name does not tell")
+      ->type_name("ply|obj|off|xyz|csv|las|pcd");
   command
       ->add_flag("--lossy", args->lossy,
                  "The file was coded with --stop-points or --stop-level:\n"
@@ -131,6 +134,8 @@ void addVerifyCommand(CLI::App& app) {
       ->needs(against);
   command->add_flag("--drop-nonfinite", args->dropNonFinite,
                     "Leave out the model's points with NaN or infinite coordinates");
+  command->add_option("--threads", args->threads, "Threads (default: as many as the machine has)")
+      ->option_text("N");
   command->add_flag("-q,--quiet", args->quiet, "Print nothing but errors");
   command->callback([args] { runVerify(*args); });
   command->footer(

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "bspc/grid.h"
 #include "bspc/point_set.h"
 #include "bspc/scalar_type.h"
 #include "bspc/span.h"
@@ -19,16 +21,23 @@ class FormatError : public std::runtime_error {
   explicit FormatError(const std::string& message) : std::runtime_error(message) {}
 };
 
-/// A model that was read from a file: its positions, and the names of what else the file holds.
-struct Model {
+/// What is known of a model file beside where its points are.
+struct ModelInfo {
+  /// The type of the positions.
   ScalarType type = ScalarType::Float32;
-  /// Three numbers of `type` a point, packed, in the byte order of this machine.
-  std::vector<std::uint8_t> positions;
   /// What the file holds beside positions, as phrases: `vertex property "red" (uint8)`,
   /// "5,660 faces".
   std::vector<std::string> otherContent;
   /// Texts of the comment and obj_info lines of a PLY header.
   std::vector<std::string> comments;
+  /// A lattice that every position lies on, if the file says one; its bases count for nothing.
+  std::optional<Grid> lattice;
+};
+
+/// A model that was read from a file.
+struct Model : ModelInfo {
+  /// Three numbers of `type` a point, packed, in the byte order of this machine.
+  std::vector<std::uint8_t> positions;
 
   std::uint64_t size() const { return positions.size() / (3 * scalarSize(type)); }
   /// Views the positions; the model must outlive the view.
@@ -45,6 +54,19 @@ struct PointColumn {
 struct ModelView {
   PointSetView points;
   std::vector<PointColumn> columns;
+};
+
+/// A column that is to be written, and the greatest number in it.
+struct ColumnLayout {
+  std::string name;
+  std::uint64_t greatest = 0;
+};
+
+/// What has to be known of a model before its first point is written.
+struct ModelLayout {
+  ScalarType type = ScalarType::Float32;
+  std::uint64_t points = 0;
+  std::vector<ColumnLayout> columns;
 };
 
 }  // namespace bspc::formats

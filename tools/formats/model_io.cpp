@@ -6,33 +6,19 @@
 #include <utility>
 
 #include "formats/input_buffer.h"
+#include "formats/las_reader.h"
+#include "formats/model_writer.h"
 #include "formats/obj_reader.h"
-#include "formats/obj_writer.h"
 #include "formats/off_reader.h"
-#include "formats/off_writer.h"
-#include "formats/output_buffer.h"
+#include "formats/pcd_reader.h"
 #include "formats/ply_reader.h"
-#include "formats/ply_writer.h"
 #include "formats/wording.h"
 #include "formats/xyz_reader.h"
-#include "formats/xyz_writer.h"
 
 namespace bspc::formats {
 
-namespace {
-
-void requireWholeColumns(const ModelView& model) {
-  for (const PointColumn& column : model.columns) {
-    if (column.values.size() == model.points.size()) continue;
-    throw FormatError("column " + quoted(column.name) + " has " + grouped(column.values.size()) +
-                      " values for " + grouped(model.points.size()) + " points");
-  }
-}
-
-}  // namespace
-
 std::optional<Format> formatFromPath(std::string_view path) {
-  constexpr std::array<std::pair<std::string_view, Format>, 7> kEndings{{
+  constexpr std::array<std::pair<std::string_view, Format>, 10> kEndings{{
       {"ply", Format::Ply},
       {"obj", Format::Obj},
       {"off", Format::Off},
@@ -40,6 +26,10 @@ std::optional<Format> formatFromPath(std::string_view path) {
       {"txt", Format::Xyz},
       {"asc", Format::Xyz},
       {"csv", Format::Csv},
+      {"las", Format::Las},
+      // Its content tells that it is compressed.
+      {"laz", Format::Las},
+      {"pcd", Format::Pcd},
   }};
   const std::size_t dot = path.rfind('.');
   if (dot == std::string_view::npos) return std::nullopt;
@@ -50,44 +40,57 @@ std::optional<Format> formatFromPath(std::string_view path) {
   return found->second;
 }
 
-Model readModel(std::istream& in, Format format, const ProgressCallback& progress) {
+std::unique_ptr<PointStream> openPointStream(std::istream& in, Format format,
+                                             const ProgressCallback& progress) {
   InputBuffer input(in, progress);
   switch (format) {
     case Format::Ply:
-      return readPly(input);
+      return openPly(std::move(input));
     case Format::Obj:
-      return readObj(input);
+      return openObj(std::move(input));
     case Format::Off:
-      return readOff(input);
+      return openOff(std::move(input));
     case Format::Xyz:
     case Format::Csv:
-      return readXyz(input);
+      return openXyz(std::move(input));
+    case Format::Las:
+      return openLas(std::move(input));
+    case Format::Pcd:
+      return openPcd(std::move(input));
   }
   throw FormatError("there is no reader for this format");
 }
 
+bool isWritable(Format format) { return format != Format::Las && format != Format::Pcd; }
+
+Model readModel(std::istream& in, Format format, const ProgressCallback& progress) {
+  constexpr std::size_t kBlock = std::size_t{1} << 16;
+  const std::unique_ptr<PointStream> points = openPointStream(in, format, progress);
+  const std::size_t pointBytes = 3 * scalarSize(points->info().type);
+  Model model;
+  // One block more: the end shows only when less than a block comes.
+  model.positions.reserve((points->reservable() + kBlock) * pointBytes);
+  for (bool more = true; more;) {
+    const std::size_t size = model.positions.size();
+    model.positions.resize(size + kBlock * pointBytes);
+    const std::size_t got = points->read(model.positions.data() + size, kBlock);
+    model.positions.resize(size + got * pointBytes);
+    more = got == kBlock;
+  }
+  static_cast<ModelInfo&>(model) = points->info();
+  return model;
+}
+
 void writeModel(std::ostream& out, Format format, const ModelView& model,
                 const ProgressCallback& progress) {
-  requireWholeColumns(model);
-  OutputBuffer output(out, progress);
-  switch (format) {
-    case Format::Ply:
-      writePly(output, model);
-      break;
-    case Format::Obj:
-      writeObj(output, model);
-      break;
-    case Format::Off:
-      writeOff(output, model);
-      break;
-    case Format::Xyz:
-      writeXyz(output, model);
-      break;
-    case Format::Csv:
-      writeCsv(output, model);
-      break;
+  ModelLayout layout{model.points.type(), model.points.size(), {}};
+  for (const PointColumn& column : model.columns) {
+    const auto* const greatest = std::max_element(column.values.begin(), column.values.end());
+    layout.columns.push_back({column.name, greatest == column.values.end() ? 0 : *greatest});
   }
-  output.finish();
+  ModelWriter writer(out, format, std::move(layout), progress);
+  writer.append(model);
+  writer.finish();
 }
 
 }  // namespace bspc::formats

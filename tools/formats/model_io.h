@@ -2,22 +2,32 @@
 
 #include <cstdint>
 #include <iosfwd>
+#include <memory>
 #include <optional>
 #include <string_view>
 
 #include "bspc/progress.h"
 #include "formats/model.h"
+#include "formats/point_stream.h"
 
 namespace bspc::formats {
 
-enum class Format : std::uint8_t { Ply, Obj, Off, Xyz, Csv };
+enum class Format : std::uint8_t { Ply, Obj, Off, Xyz, Csv, Las, Pcd };
 
 /// The format that the ending of a file name says, in letters of any case; ".ply" alone will do.
 std::optional<Format> formatFromPath(std::string_view path);
 
-/// Reads a whole model from a stream opened in binary mode, which need not be seekable. Throws
-/// FormatError, or Error(Cancelled) once `progress` asks to stop.
+/// Opens a stream that is in binary mode, which need not be seekable and must outlive what is
+/// returned, as a model to be read in pieces. Throws FormatError, or Error(Cancelled) once
+/// `progress` asks to stop.
+std::unique_ptr<PointStream> openPointStream(std::istream& in, Format format,
+                                             const ProgressCallback& progress = {});
+
+/// Reads a whole model; the rest is as with openPointStream(), through which it reads.
 Model readModel(std::istream& in, Format format, const ProgressCallback& progress = {});
+
+/// Whether writeModel() knows the format.
+bool isWritable(Format format);
 
 /// Writes a model to a stream opened in binary mode. Throws FormatError if the format cannot hold
 /// it or if the stream fails, Error(Cancelled) once `progress` asks to stop.

@@ -4,6 +4,7 @@
 #include <array>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "formats/position_text.h"
 #include "formats/text_scanner.h"
@@ -65,40 +66,39 @@ constexpr std::array<Statement, 41> kStatements{{
     {"bsp", "surface", "surfaces"},
 }};
 
-class ObjReader {
+class ObjStream : public PointStream {
  public:
-  explicit ObjReader(InputBuffer& in) : text_(in) {}
+  explicit ObjStream(InputBuffer in) : in_(std::move(in)), text_(in_) { info_.type = kTextType; }
 
-  Model read() {
-    model_.type = kTextType;
-    bool continued = false;
+  std::size_t read(std::uint8_t* positions, std::size_t count) override {
+    std::size_t done = 0;
     std::string_view keyword;
-    while (text_.nextLine()) {
-      const bool isContinuation = continued;
+    while (done < count && text_.nextLine()) {
+      const bool isContinuation = continued_;
       text_.cutComment('#');
-      continued = text_.endsWith('\\');
+      continued_ = text_.endsWith('\\');
       if (isContinuation || !text_.nextToken(keyword)) continue;
       if (keyword == "v") {
-        if (continued) text_.fail("a vertex that goes on in the next line is not supported");
-        readVertex();
+        if (continued_) text_.fail("a vertex that goes on in the next line is not supported");
+        storePosition(positions, done++, readVertex());
       } else {
-        count(keyword);
+        countStatement(keyword);
       }
     }
-    nameOtherContent();
-    return std::move(model_);
+    if (done < count && info_.otherContent.empty()) nameOtherContent();
+    return done;
   }
 
  private:
-  void readVertex() {
+  std::array<double, 3> readVertex() {
     std::array<double, 3> position{};
     std::string_view token;
     for (std::size_t k = 0; k < 3; ++k) {
       if (!text_.nextToken(token)) text_.failAtEnd(std::string("a vertex without ") + "xyz"[k]);
       position[k] = text_.number<double>(token, [k] { return std::string(1, "xyz"[k]); });
     }
-    appendPosition(model_, position);
     if (text_.nextToken(token)) readFurther(token);
+    return position;
   }
 
   /// One further number is a weight, of which 1 says nothing; three or four are a colour.
@@ -117,7 +117,7 @@ class ObjReader {
     }
   }
 
-  void count(std::string_view keyword) {
+  void countStatement(std::string_view keyword) {
     const auto* const found =
         std::find_if(kStatements.begin(), kStatements.end(),
                      [&](const Statement& s) { return s.keyword == keyword; });
@@ -128,7 +128,7 @@ class ObjReader {
   }
 
   void nameOtherContent() {
-    std::vector<std::string>& content = model_.otherContent;
+    std::vector<std::string>& content = info_.otherContent;
     if (colours_ > 0) content.push_back(counted(colours_, "vertex colour", "vertex colours"));
     if (weights_ > 0) content.push_back(counted(weights_, "vertex weight", "vertex weights"));
     for (std::size_t i = 0; i < kStatements.size(); ++i) {
@@ -137,8 +137,10 @@ class ObjReader {
     }
   }
 
+  InputBuffer in_;
   TextScanner text_;
-  Model model_;
+  /// Whether the last line goes on in the next.
+  bool continued_ = false;
   std::array<std::uint64_t, kStatements.size()> counts_{};
   std::uint64_t colours_ = 0;
   std::uint64_t weights_ = 0;
@@ -146,6 +148,8 @@ class ObjReader {
 
 }  // namespace
 
-Model readObj(InputBuffer& in) { return ObjReader(in).read(); }
+std::unique_ptr<PointStream> openObj(InputBuffer in) {
+  return std::make_unique<ObjStream>(std::move(in));
+}
 
 }  // namespace bspc::formats

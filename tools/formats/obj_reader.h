@@ -1,11 +1,13 @@
 #pragma once
 
+#include <memory>
+
 #include "formats/input_buffer.h"
-#include "formats/model.h"
+#include "formats/point_stream.h"
 
 namespace bspc::formats {
 
-/// Reads the vertices of a Wavefront OBJ file. Throws FormatError.
-Model readObj(InputBuffer& in);
+/// Opens the vertices of a Wavefront OBJ file. Throws FormatError.
+std::unique_ptr<PointStream> openObj(InputBuffer in);
 
 }  // namespace bspc::formats

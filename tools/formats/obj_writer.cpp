@@ -4,10 +4,9 @@
 
 namespace bspc::formats {
 
-void writeObj(OutputBuffer& out, const ModelView& model) {
-  requireNoColumns(model, "OBJ");
-  out.text() += "# written by bspc\n";
-  writePositionLines(out, model, "v ", ' ');
+void writeObjHeader(std::string& text, const ModelLayout& layout) {
+  requireNoColumns(layout, "OBJ");
+  text += "# written by bspc\n";
 }
 
 }  // namespace bspc::formats

@@ -3,6 +3,7 @@
 #include <array>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "formats/position_text.h"
 #include "formats/text_scanner.h"
@@ -12,27 +13,38 @@ namespace bspc::formats {
 
 namespace {
 
-class OffReader {
+class OffStream : public PointStream {
  public:
-  explicit OffReader(InputBuffer& in) : in_(in), text_(in) {}
-
-  Model read() {
-    model_.type = kTextType;
+  explicit OffStream(InputBuffer in) : in_(std::move(in)), text_(in_) {
+    info_.type = kTextType;
     readKeyword();
     vertices_ = expectCount("vertices");
     faces_ = expectCount("faces");
     skipNumbers("the number of edges");
     // In text a vertex takes six bytes at the least.
-    model_.positions.reserve(in_.reservable(vertices_, 6) * 3 * sizeof(double));
-    for (index_ = 0; index_ < vertices_; ++index_) readVertex();
-    for (index_ = 0; index_ < faces_; ++index_) skipFace();
-    std::string_view token;
-    if (next(token)) text_.fail("trailing data after the last face: " + quoted(token));
-    nameOtherContent();
-    return std::move(model_);
+    reservable_ = in_.reservable(vertices_, 6);
+  }
+
+  std::size_t read(std::uint8_t* positions, std::size_t count) override {
+    std::size_t done = 0;
+    for (; done < count && index_ < vertices_; ++done, ++index_) {
+      storePosition(positions, done, readVertex());
+    }
+    if (done < count) finish();
+    return done;
   }
 
  private:
+  void finish() {
+    if (finished_) return;
+    for (index_ = 0; index_ < faces_; ++index_) skipFace();
+    index_ = vertices_;
+    std::string_view token;
+    if (next(token)) text_.fail("trailing data after the last face: " + quoted(token));
+    nameOtherContent();
+    finished_ = true;
+  }
+
   /// The next token of this line or a later one, comments left out.
   bool next(std::string_view& token) {
     while (!text_.nextToken(token)) {
@@ -84,7 +96,7 @@ class OffReader {
     return count;
   }
 
-  void readVertex() {
+  std::array<double, 3> readVertex() {
     std::array<double, 3> position{};
     std::string_view token;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -92,8 +104,8 @@ class OffReader {
       position[k] = text_.number<double>(
           token, [&] { return std::string(1, "xyz"[k]) + " of " + place("vertex", vertices_); });
     }
-    appendPosition(model_, position);
     if (skipNumbers("a vertex") > 0) ++further_;
+    return position;
   }
 
   /// Its number of corners, their vertices, perhaps a colour to the end of the line.
@@ -124,7 +136,7 @@ class OffReader {
   }
 
   void nameOtherContent() {
-    std::vector<std::string>& content = model_.otherContent;
+    std::vector<std::string>& content = info_.otherContent;
     if (further_ > 0) {
       if (hasNormals_) content.emplace_back("vertex normals");
       if (hasColours_) content.emplace_back("vertex colours");
@@ -136,9 +148,9 @@ class OffReader {
     if (faces_ > 0) content.push_back(counted(faces_, "face", "faces"));
   }
 
-  InputBuffer& in_;
+  InputBuffer in_;
   TextScanner text_;
-  Model model_;
+  bool finished_ = false;
   bool hasTexture_ = false;
   bool hasColours_ = false;
   bool hasNormals_ = false;
@@ -150,6 +162,8 @@ class OffReader {
 
 }  // namespace
 
-Model readOff(InputBuffer& in) { return OffReader(in).read(); }
+std::unique_ptr<PointStream> openOff(InputBuffer in) {
+  return std::make_unique<OffStream>(std::move(in));
+}
 
 }  // namespace bspc::formats

@@ -1,12 +1,14 @@
 #pragma once
 
+#include <memory>
+
 #include "formats/input_buffer.h"
-#include "formats/model.h"
+#include "formats/point_stream.h"
 
 namespace bspc::formats {
 
-/// Reads the vertices of a text OFF file of three dimensions, with normals (NOFF), colours (COFF)
+/// Opens the vertices of a text OFF file of three dimensions, with normals (NOFF), colours (COFF)
 /// or texture coordinates (STOFF) or without. Throws FormatError.
-Model readOff(InputBuffer& in);
+std::unique_ptr<PointStream> openOff(InputBuffer in);
 
 }  // namespace bspc::formats

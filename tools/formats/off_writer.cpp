@@ -4,10 +4,9 @@
 
 namespace bspc::formats {
 
-void writeOff(OutputBuffer& out, const ModelView& model) {
-  requireNoColumns(model, "OFF");
-  out.text() += "OFF\n" + std::to_string(model.points.size()) + " 0 0\n";
-  writePositionLines(out, model, "", ' ');
+void writeOffHeader(std::string& text, const ModelLayout& layout) {
+  requireNoColumns(layout, "OFF");
+  text += "OFF\n" + std::to_string(layout.points) + " 0 0\n";
 }
 
 }  // namespace bspc::formats

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <string>
+
 #include "formats/model.h"
-#include "formats/output_buffer.h"
 
 namespace bspc::formats {
 
-/// Writes an OFF file of vertices. Throws FormatError if the model has columns.
-void writeOff(OutputBuffer& out, const ModelView& model);
+/// Writes what stands in front of the vertices of an OFF file. Throws FormatError if the model
+/// has columns.
+void writeOffHeader(std::string& text, const ModelLayout& layout);
 
 }  // namespace bspc::formats

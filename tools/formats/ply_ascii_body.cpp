@@ -1,9 +1,7 @@
-#include <cstring>
 #include <string>
 
 #include "formats/ply_body.h"
-#include "formats/scalar_convert.h"
-#include "formats/scalar_visit.h"
+#include "formats/scalar_text.h"
 #include "formats/wording.h"
 
 namespace bspc::formats {
@@ -12,25 +10,39 @@ namespace {
 
 /// Tokens are read without regard to line ends: elements that some writer wrapped are read, and a
 /// number too many or too few shows at the end of the data.
-class AsciiBody {
+class AsciiBody : public PlyBody {
  public:
-  AsciiBody(TextScanner& text, const PlyHeader& header, std::vector<std::uint8_t>& positions)
-      : text_(text), header_(header), positions_(positions), axes_(plyAxes(header)) {}
+  AsciiBody(TextScanner& text, const PlyHeader& header)
+      : text_(text), header_(header), axes_(plyAxes(header)) {}
 
-  void read() {
-    for (std::size_t e = 0; e < header_.elements.size(); ++e) {
-      element_ = &header_.elements[e];
-      // Without properties there is nothing to read, however many elements are claimed.
-      if (element_->properties.empty()) continue;
-      const bool isVertex = e == header_.vertexElement;
-      for (index_ = 0; index_ < element_->count; ++index_) {
-        if (isVertex) {
-          readVertex();
+  void skip(const PlyElement& element) override {
+    element_ = &element;
+    // Without properties there is nothing to read, however many elements are claimed.
+    if (element.properties.empty()) return;
+    for (index_ = 0; index_ < element.count; ++index_) {
+      for (const PlyProperty& property : element.properties) skipProperty(property);
+    }
+  }
+
+  void readVertices(std::uint64_t first, std::size_t count, std::uint8_t* positions) override {
+    const std::size_t size = scalarSize(header_.positionType);
+    element_ = &header_.vertices();
+    for (std::size_t i = 0; i < count; ++i) {
+      index_ = first + i;
+      for (std::size_t p = 0; p < element_->properties.size(); ++p) {
+        const PlyProperty& property = element_->properties[p];
+        if (axes_[p] < 3) {
+          readCoordinate(text_, nextToken(), property.type, header_.positionType,
+                         positions + (3 * i + axes_[p]) * size,
+                         [&property] { return describe(property); });
         } else {
-          for (const PlyProperty& property : element_->properties) skipProperty(property);
+          skipProperty(property);
         }
       }
     }
+  }
+
+  void requireEnd() override {
     std::string_view token;
     if (text_.nextTokenOfAnyLine(token)) {
       text_.fail("trailing data after the last element: " + quoted(token));
@@ -38,34 +50,6 @@ class AsciiBody {
   }
 
  private:
-  void readVertex() {
-    const std::size_t size = scalarSize(header_.positionType);
-    std::array<std::uint8_t, 24> point{};
-    for (std::size_t p = 0; p < element_->properties.size(); ++p) {
-      const PlyProperty& property = element_->properties[p];
-      if (axes_[p] < 3) {
-        readCoordinate(property, point.data() + axes_[p] * size);
-      } else {
-        skipProperty(property);
-      }
-    }
-    positions_.insert(positions_.end(), point.data(), point.data() + 3 * size);
-  }
-
-  void readCoordinate(const PlyProperty& property, std::uint8_t* to) {
-    std::uint64_t bytes = 0;
-    readNumber(property.type, property, &bytes);
-    if (property.type == header_.positionType) {
-      std::memcpy(to, &bytes, scalarSize(property.type));
-      return;
-    }
-    const ScalarSource source{&bytes, property.type, 0, false};
-    if (convertScalars(source, {to, header_.positionType, 0}, 1) == 0) {
-      text_.fail("the number for " + describe(property) + " is not exact as a float64, the type " +
-                 "that x, y and z have in common");
-    }
-  }
-
   void skipProperty(const PlyProperty& property) {
     std::uint64_t bytes = 0;
     if (!property.isList) return readNumber(property.type, property, &bytes);
@@ -81,17 +65,15 @@ class AsciiBody {
 
   /// Stores the next number as `type` at `to`, which takes eight bytes.
   void readNumber(ScalarType type, const PlyProperty& property, std::uint64_t* to) {
+    readScalar(text_, nextToken(), type, to, [&property] { return describe(property); });
+  }
+
+  std::string_view nextToken() {
     std::string_view token;
     if (!text_.nextTokenOfAnyLine(token)) {
       text_.failAtEnd("the file ends inside " + plyPlace(*element_, index_));
     }
-    visitScalar(type, [&](auto value) {
-      const NumberStatus status = parseNumber(token, value);
-      if (status != NumberStatus::Ok) {
-        text_.failNumber(status, token, !isFloatingPoint(type), describe(property));
-      }
-      std::memcpy(to, &value, sizeof(value));
-    });
+    return token;
   }
 
   static std::string describe(const PlyProperty& property) {
@@ -100,7 +82,6 @@ class AsciiBody {
 
   TextScanner& text_;
   const PlyHeader& header_;
-  std::vector<std::uint8_t>& positions_;
   std::vector<std::size_t> axes_;
   const PlyElement* element_ = nullptr;
   std::uint64_t index_ = 0;
@@ -108,9 +89,8 @@ class AsciiBody {
 
 }  // namespace
 
-void readAsciiPlyBody(TextScanner& text, const PlyHeader& header,
-                      std::vector<std::uint8_t>& positions) {
-  AsciiBody(text, header, positions).read();
+std::unique_ptr<PlyBody> asciiPlyBody(TextScanner& text, const PlyHeader& header) {
+  return std::make_unique<AsciiBody>(text, header);
 }
 
 }  // namespace bspc::formats

@@ -4,6 +4,7 @@
 
 #include "formats/model.h"
 #include "formats/ply_body.h"
+#include "formats/record_reader.h"
 #include "formats/scalar_convert.h"
 #include "formats/scalar_visit.h"
 #include "formats/wording.h"
@@ -12,26 +13,47 @@ namespace bspc::formats {
 
 namespace {
 
-class BinaryBody {
+/// Where x, y and z are in vertices without lists.
+RecordLayout layoutOf(const PlyHeader& header, bool swapped) {
+  RecordLayout layout;
+  layout.swapped = swapped;
+  layout.positionType = header.positionType;
+  const std::vector<std::size_t> axes = plyAxes(header);
+  for (std::size_t p = 0; p < axes.size(); ++p) {
+    const PlyProperty& property = header.vertices().properties[p];
+    if (axes[p] < 3) layout.xyz[axes[p]] = {layout.bytes, property.type};
+    layout.bytes += scalarSize(property.type);
+  }
+  return layout;
+}
+
+class BinaryBody : public PlyBody {
  public:
-  BinaryBody(InputBuffer& in, const PlyHeader& header, std::vector<std::uint8_t>& positions)
+  BinaryBody(InputBuffer& in, const PlyHeader& header)
       : in_(in),
         header_(header),
-        positions_(positions),
         axes_(plyAxes(header)),
-        swapped_((header.encoding == PlyEncoding::LittleEndian) != hostIsLittleEndian()) {}
+        swapped_((header.encoding == PlyEncoding::LittleEndian) != hostIsLittleEndian()),
+        layout_(layoutOf(header, swapped_)),
+        records_(in, layout_) {}
 
-  void read() {
-    for (std::size_t e = 0; e < header_.elements.size(); ++e) {
-      element_ = &header_.elements[e];
-      if (e == header_.vertexElement) {
-        readVertices();
-      } else if (element_->hasList()) {
-        for (std::uint64_t i = 0; i < element_->count; ++i) readRecord(i, nullptr);
-      } else {
-        skipRecords();
-      }
+  void skip(const PlyElement& element) override {
+    element_ = &element;
+    if (element.hasList()) {
+      for (std::uint64_t i = 0; i < element.count; ++i) readRecord(i, nullptr);
+    } else {
+      skipRecords();
     }
+  }
+
+  void readVertices(std::uint64_t first, std::size_t count, std::uint8_t* positions) override {
+    element_ = &header_.vertices();
+    if (!element_->hasList()) return readFixed(first, count, positions);
+    const std::size_t pointBytes = 3 * scalarSize(header_.positionType);
+    for (std::size_t i = 0; i < count; ++i) readRecord(first + i, positions + i * pointBytes);
+  }
+
+  void requireEnd() override {
     if (in_.ensure(1)) {
       throw FormatError("trailing data after the last element (byte " + grouped(in_.offset()) +
                         ")");
@@ -39,79 +61,12 @@ class BinaryBody {
   }
 
  private:
-  void readVertices() {
-    const std::size_t pointBytes = 3 * scalarSize(header_.positionType);
-    if (element_->hasList()) {
-      std::array<std::uint8_t, 24> point{};
-      for (std::uint64_t i = 0; i < element_->count; ++i) {
-        readRecord(i, point.data());
-        positions_.insert(positions_.end(), point.data(), point.data() + pointBytes);
-      }
-    } else if (isPackedPositions()) {
-      readPacked(pointBytes);
-    } else {
-      readFixed(pointBytes);
-    }
-  }
-
-  /// Whether the records are what the model wants, byte for byte.
-  bool isPackedPositions() const {
-    const auto& properties = element_->properties;
-    return !swapped_ && properties.size() == 3 &&
-           header_.xyz == std::array<std::size_t, 3>{0, 1, 2} &&
-           std::all_of(properties.begin(), properties.end(),
-                       [&](const PlyProperty& p) { return p.type == header_.positionType; });
-  }
-
-  void readPacked(std::size_t pointBytes) {
-    constexpr std::size_t kBlockBytes = std::size_t{1} << 20;
-    const std::size_t block = kBlockBytes / pointBytes;
-    for (std::uint64_t done = 0; done < element_->count;) {
-      const auto count =
-          static_cast<std::size_t>(std::min<std::uint64_t>(block, element_->count - done));
-      // A header can claim any number of vertices: memory grows as their bytes arrive.
-      const std::size_t size = positions_.size();
-      positions_.resize(size + count * pointBytes);
-      const std::size_t got = in_.read(positions_.data() + size, count * pointBytes);
-      if (got < count * pointBytes) failShort(done + got / pointBytes);
-      done += count;
-    }
-  }
-
-  void readFixed(std::size_t pointBytes) {
-    const auto recordBytes = static_cast<std::size_t>(element_->fixedBytes());
-    const std::size_t block = std::max<std::size_t>((std::size_t{1} << 17) / recordBytes, 1);
-    for (std::uint64_t done = 0; done < element_->count;) {
-      const auto count =
-          static_cast<std::size_t>(std::min<std::uint64_t>(block, element_->count - done));
-      if (!in_.ensure(count * recordBytes)) {
-        const std::uint64_t whole = in_.available() / recordBytes;
-        in_.consume(in_.available());
-        failShort(done + whole);
-      }
-      const std::size_t size = positions_.size();
-      positions_.resize(size + count * pointBytes);
-      convertBlock(done, count, recordBytes, positions_.data() + size);
-      in_.consume(count * recordBytes);
-      done += count;
-    }
-  }
-
-  void convertBlock(std::uint64_t first, std::size_t count, std::size_t recordBytes,
-                    std::uint8_t* to) const {
-    const std::size_t size = scalarSize(header_.positionType);
-    std::size_t offset = 0;
-    for (std::size_t p = 0; p < element_->properties.size(); ++p) {
-      const PlyProperty& property = element_->properties[p];
-      if (axes_[p] < 3) {
-        const ScalarSource source{in_.data() + offset, property.type, recordBytes, swapped_};
-        const ScalarTarget target{to + axes_[p] * size, header_.positionType, 3 * size};
-        const std::size_t exact = convertScalars(source, target, count);
-        if (exact < count) {
-          failInexact(property, first + exact, in_.offset() + exact * recordBytes + offset);
-        }
-      }
-      offset += scalarSize(property.type);
+  void readFixed(std::uint64_t first, std::size_t count, std::uint8_t* positions) {
+    const RecordReader::Result result = records_.read(positions, count);
+    if (result.status == RecordReader::Status::EndOfStream) failShort(first + result.records);
+    if (result.status == RecordReader::Status::Inexact) {
+      failInexact(element_->properties[header_.xyz[result.axis]], first + result.records,
+                  in_.offset() + layout_.xyz[result.axis].offset);
     }
   }
 
@@ -188,17 +143,17 @@ class BinaryBody {
 
   InputBuffer& in_;
   const PlyHeader& header_;
-  std::vector<std::uint8_t>& positions_;
   std::vector<std::size_t> axes_;
   bool swapped_;
+  RecordLayout layout_;
+  RecordReader records_;
   const PlyElement* element_ = nullptr;
 };
 
 }  // namespace
 
-void readBinaryPlyBody(InputBuffer& in, const PlyHeader& header,
-                       std::vector<std::uint8_t>& positions) {
-  BinaryBody(in, header, positions).read();
+std::unique_ptr<PlyBody> binaryPlyBody(InputBuffer& in, const PlyHeader& header) {
+  return std::make_unique<BinaryBody>(in, header);
 }
 
 std::string plyPlace(const PlyElement& element, std::uint64_t index) {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,12 +12,26 @@
 
 namespace bspc::formats {
 
-/// Reads what follows the header to the end of the file. Appends to `positions` three numbers a
-/// vertex of the type header.positionType and passes over everything else. Both throw FormatError.
-void readAsciiPlyBody(TextScanner& text, const PlyHeader& header,
-                      std::vector<std::uint8_t>& positions);
-void readBinaryPlyBody(InputBuffer& in, const PlyHeader& header,
-                       std::vector<std::uint8_t>& positions);
+/// Reads what follows a PLY header, in the order of the header. Throws FormatError.
+class PlyBody {
+ public:
+  PlyBody() = default;
+  virtual ~PlyBody() = default;
+  PlyBody(const PlyBody&) = delete;
+  PlyBody& operator=(const PlyBody&) = delete;
+
+  /// Passes over all of an element that is not the vertices.
+  virtual void skip(const PlyElement& element) = 0;
+  /// Reads `count` vertices of which the first is number `first`, counted from 0. Writes three
+  /// numbers each of the type header.positionType and passes over their other properties.
+  virtual void readVertices(std::uint64_t first, std::size_t count, std::uint8_t* positions) = 0;
+  /// Throws if anything follows.
+  virtual void requireEnd() = 0;
+};
+
+/// Input and header must outlive the body.
+std::unique_ptr<PlyBody> asciiPlyBody(TextScanner& text, const PlyHeader& header);
+std::unique_ptr<PlyBody> binaryPlyBody(InputBuffer& in, const PlyHeader& header);
 
 /// "vertex 41,230 of 50,000"; `index` counts from 0.
 std::string plyPlace(const PlyElement& element, std::uint64_t index);

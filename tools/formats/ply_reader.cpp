@@ -1,26 +1,66 @@
 #include "formats/ply_reader.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "formats/ply_body.h"
 #include "formats/ply_header.h"
 
 namespace bspc::formats {
 
-Model readPly(InputBuffer& in) {
-  TextScanner text(in);
-  PlyHeader header = readPlyHeader(text);
-  Model model;
-  model.type = header.positionType;
-  const std::uint64_t least = header.vertices().leastBytes(header.encoding);
-  model.positions.reserve(in.reservable(header.vertices().count, least) * 3 *
-                          scalarSize(model.type));
-  if (header.encoding == PlyEncoding::Ascii) {
-    readAsciiPlyBody(text, header, model.positions);
-  } else {
-    readBinaryPlyBody(in, header, model.positions);
+namespace {
+
+class PlyStream : public PointStream {
+ public:
+  explicit PlyStream(InputBuffer in)
+      : in_(std::move(in)), text_(in_), header_(readPlyHeader(text_)) {
+    const bool isText = header_.encoding == PlyEncoding::Ascii;
+    body_ = isText ? asciiPlyBody(text_, header_) : binaryPlyBody(in_, header_);
+    info_.type = header_.positionType;
+    info_.otherContent = otherPlyContent(header_);
+    info_.comments = std::move(header_.comments);
+    const PlyElement& vertices = header_.vertices();
+    reservable_ = in_.reservable(vertices.count, vertices.leastBytes(header_.encoding));
   }
-  model.otherContent = otherPlyContent(header);
-  model.comments = std::move(header.comments);
-  return model;
+
+  std::size_t read(std::uint8_t* positions, std::size_t count) override {
+    skipUpTo(header_.vertexElement);
+    const std::uint64_t left = header_.vertices().count - done_;
+    const auto step = static_cast<std::size_t>(std::min<std::uint64_t>(count, left));
+    body_->readVertices(done_, step, positions);
+    done_ += step;
+    if (step < count) finish();
+    return step;
+  }
+
+ private:
+  void skipUpTo(std::size_t element) {
+    for (; element_ < element; ++element_) {
+      if (element_ != header_.vertexElement) body_->skip(header_.elements[element_]);
+    }
+  }
+
+  void finish() {
+    if (finished_) return;
+    skipUpTo(header_.elements.size());
+    body_->requireEnd();
+    finished_ = true;
+  }
+
+  InputBuffer in_;
+  TextScanner text_;
+  PlyHeader header_;
+  std::unique_ptr<PlyBody> body_;
+  /// The next element to pass over.
+  std::size_t element_ = 0;
+  std::uint64_t done_ = 0;
+  bool finished_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<PointStream> openPly(InputBuffer in) {
+  return std::make_unique<PlyStream>(std::move(in));
 }
 
 }  // namespace bspc::formats

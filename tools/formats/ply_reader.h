@@ -1,12 +1,14 @@
 #pragma once
 
+#include <memory>
+
 #include "formats/input_buffer.h"
-#include "formats/model.h"
+#include "formats/point_stream.h"
 
 namespace bspc::formats {
 
-/// Reads a PLY file 1.0, ascii or binary of either byte order. Positions keep the type of the
+/// Opens a PLY file 1.0, ascii or binary of either byte order. Positions keep the type of the
 /// properties x, y and z. Throws FormatError.
-Model readPly(InputBuffer& in);
+std::unique_ptr<PointStream> openPly(InputBuffer in);
 
 }  // namespace bspc::formats

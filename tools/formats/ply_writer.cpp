@@ -44,29 +44,35 @@ struct Property {
   std::size_t offset = 0;
 };
 
-/// uint if all values fit, else double.
-ScalarType columnType(Span<const std::uint64_t> values) {
-  const bool small =
-      std::all_of(values.begin(), values.end(), [](std::uint64_t v) { return v <= UINT32_MAX; });
-  return small ? ScalarType::UInt32 : ScalarType::Float64;
+/// The type that positions go out as.
+ScalarType positionType(ScalarType type) {
+  const bool wide = type == ScalarType::Int64 || type == ScalarType::UInt64;
+  return wide ? ScalarType::Float64 : type;
 }
 
-std::vector<Property> listProperties(const ModelView& model) {
+/// uint if all values fit, else double.
+ScalarType columnType(const ColumnLayout& column) {
+  return column.greatest <= UINT32_MAX ? ScalarType::UInt32 : ScalarType::Float64;
+}
+
+std::vector<Property> listProperties(const ModelLayout& layout, const ModelView& model) {
   const PointSetView& points = model.points;
-  const bool wide = points.type() == ScalarType::Int64 || points.type() == ScalarType::UInt64;
   std::vector<Property> properties;
   for (std::size_t k = 0; k < 3; ++k) {
     const auto* data = static_cast<const std::uint8_t*>(points.data());
-    if (data != nullptr) data += k * scalarSize(points.type());
+    if (data != nullptr) data += k * scalarSize(layout.type);
     properties.push_back({std::string(1, "xyz"[k]),
-                          {data, points.type(), points.strideBytes(), false},
-                          wide ? ScalarType::Float64 : points.type(),
+                          {data, layout.type, points.strideBytes(), false},
+                          positionType(layout.type),
                           0});
   }
-  for (const PointColumn& column : model.columns) {
+  for (std::size_t c = 0; c < layout.columns.size(); ++c) {
+    const ColumnLayout& column = layout.columns[c];
+    const std::uint64_t* values =
+        c < model.columns.size() ? model.columns[c].values.data() : nullptr;
     properties.push_back({column.name,
-                          {column.values.data(), ScalarType::UInt64, sizeof(std::uint64_t), false},
-                          columnType(column.values),
+                          {values, ScalarType::UInt64, sizeof(std::uint64_t), false},
+                          columnType(column),
                           0});
   }
   std::size_t offset = 0;
@@ -75,15 +81,6 @@ std::vector<Property> listProperties(const ModelView& model) {
     offset += scalarSize(property.type);
   }
   return properties;
-}
-
-void writeHeader(std::string& text, std::uint64_t count, const std::vector<Property>& properties) {
-  text += "ply\nformat binary_little_endian 1.0\ncomment written by bspc\nelement vertex ";
-  text += std::to_string(count) + '\n';
-  for (const Property& p : properties) {
-    text += std::string("property ") + plyName(p.type) + ' ' + p.name + '\n';
-  }
-  text += "end_header\n";
 }
 
 /// The source from point `first` on.
@@ -132,11 +129,19 @@ bool isRecordImage(const ModelView& model, const std::vector<Property>& properti
 
 }  // namespace
 
-void writePly(OutputBuffer& out, const ModelView& model) {
-  const std::vector<Property> properties = listProperties(model);
+void writePlyHeader(std::string& text, const ModelLayout& layout) {
+  text += "ply\nformat binary_little_endian 1.0\ncomment written by bspc\nelement vertex ";
+  text += std::to_string(layout.points) + '\n';
+  for (const Property& p : listProperties(layout, {})) {
+    text += std::string("property ") + plyName(p.type) + ' ' + p.name + '\n';
+  }
+  text += "end_header\n";
+}
+
+void writePlyRecords(OutputBuffer& out, const ModelLayout& layout, const ModelView& model) {
   const std::uint64_t count = model.points.size();
-  writeHeader(out.text(), count, properties);
   if (count == 0) return;
+  const std::vector<Property> properties = listProperties(layout, model);
   if (isRecordImage(model, properties)) {
     out.write(model.points.data(), count * model.points.strideBytes());
   } else {

@@ -5,8 +5,11 @@
 
 namespace bspc::formats {
 
-/// Writes a PLY file, binary_little_endian, in the type of the positions; 64-bit integers, which
-/// PLY has not, as doubles. Throws FormatError for one that a double does not hold.
-void writePly(OutputBuffer& out, const ModelView& model);
+/// Writes the header of a PLY file, binary_little_endian, in the type of the positions; 64-bit
+/// integers, which PLY has not, as doubles, and columns as uint or, if that is too small, double.
+void writePlyHeader(std::string& text, const ModelLayout& layout);
+
+/// Writes points behind the header. Throws FormatError for an integer that a double does not hold.
+void writePlyRecords(OutputBuffer& out, const ModelLayout& layout, const ModelView& model);
 
 }  // namespace bspc::formats

@@ -6,11 +6,6 @@
 
 namespace bspc::formats {
 
-void appendPosition(Model& model, const std::array<double, 3>& position) {
-  const auto* bytes = reinterpret_cast<const std::uint8_t*>(position.data());
-  model.positions.insert(model.positions.end(), bytes, bytes + sizeof(position));
-}
-
 void appendPosition(std::string& text, const PointSetView& points, std::uint64_t index,
                     char separator) {
   visitScalar(points.type(), [&](auto zero) {
@@ -23,7 +18,7 @@ void appendPosition(std::string& text, const PointSetView& points, std::uint64_t
   });
 }
 
-void requireNoColumns(const ModelView& model, const char* format) {
+void requireNoColumns(const ModelLayout& model, const char* format) {
   if (model.columns.empty()) return;
   throw FormatError("an " + std::string(format) + " file has no place for " +
                     quoted(model.columns.front().name) + "; PLY, XYZ and CSV files do");

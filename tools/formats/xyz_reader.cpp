@@ -4,6 +4,7 @@
 #include <array>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "formats/position_text.h"
@@ -33,21 +34,26 @@ std::size_t axisFromName(std::string_view name) {
   return 3;
 }
 
-class XyzReader {
+class XyzStream : public PointStream {
  public:
-  explicit XyzReader(InputBuffer& in) : text_(in) {}
+  explicit XyzStream(InputBuffer in) : in_(std::move(in)), text_(in_) {
+    info_.type = kTextType;
+    atPoint_ = nextContent();
+    if (!atPoint_) return;
+    chooseSeparator();
+    readLayout();
+    if (!names_.empty()) atPoint_ = nextContent();
+  }
 
-  Model read() {
-    model_.type = kTextType;
-    if (nextContent()) {
-      chooseSeparator();
-      readLayout();
-      const bool hasNames = !names_.empty();
-      if (!hasNames) readPoint();
-      while (nextContent()) readPoint();
+  std::size_t read(std::uint8_t* positions, std::size_t count) override {
+    std::size_t done = 0;
+    for (; done < count && atPoint_; ++done) {
+      storePosition(positions, done, readPoint());
+      atPoint_ = nextContent();
     }
-    if (model_.size() > 0) nameOtherContent();
-    return std::move(model_);
+    // Columns without points hold nothing.
+    if (done > 0 && info_.otherContent.empty()) nameOtherContent();
+    return done;
   }
 
  private:
@@ -114,7 +120,7 @@ class XyzReader {
                names);
   }
 
-  void readPoint() {
+  std::array<double, 3> readPoint() {
     std::array<double, 3> position{};
     std::string_view field;
     std::size_t column = 0;
@@ -134,20 +140,22 @@ class XyzReader {
       text_.failAtEnd("expected " + counted(axisOf_.size(), "column", "columns") + ", found " +
                       grouped(column));
     }
-    appendPosition(model_, position);
+    return position;
   }
 
   void nameOtherContent() {
     for (std::size_t column = 0; column < axisOf_.size(); ++column) {
       if (axisOf_[column] < 3) continue;
       const bool isNamed = column < names_.size() && !names_[column].empty();
-      model_.otherContent.push_back("column " +
-                                    (isNamed ? quoted(names_[column]) : grouped(column + 1)));
+      info_.otherContent.push_back("column " +
+                                   (isNamed ? quoted(names_[column]) : grouped(column + 1)));
     }
   }
 
+  InputBuffer in_;
   TextScanner text_;
-  Model model_;
+  /// Whether the line is a point that has not been read yet.
+  bool atPoint_ = false;
   char separator_ = ' ';
   std::size_t columns_ = 0;
   std::vector<std::string> names_;
@@ -159,6 +167,8 @@ class XyzReader {
 
 }  // namespace
 
-Model readXyz(InputBuffer& in) { return XyzReader(in).read(); }
+std::unique_ptr<PointStream> openXyz(InputBuffer in) {
+  return std::make_unique<XyzStream>(std::move(in));
+}
 
 }  // namespace bspc::formats

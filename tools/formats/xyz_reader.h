@@ -1,13 +1,15 @@
 #pragma once
 
+#include <memory>
+
 #include "formats/input_buffer.h"
-#include "formats/model.h"
+#include "formats/point_stream.h"
 
 namespace bspc::formats {
 
-/// Reads text with a point a line: XYZ, CSV and their like. Fields are separated by semicolons,
+/// Opens text with a point a line: XYZ, CSV and their like. Fields are separated by semicolons,
 /// commas or blanks, whichever the first line shows; a first line of names says which columns are
 /// x, y and z, else they are the first three. `#` starts a comment. Throws FormatError.
-Model readXyz(InputBuffer& in);
+std::unique_ptr<PointStream> openXyz(InputBuffer in);
 
 }  // namespace bspc::formats

@@ -1,15 +1,16 @@
 #pragma once
 
+#include <string>
+
 #include "formats/model.h"
-#include "formats/output_buffer.h"
 
 namespace bspc::formats {
 
-/// Writes a point a line, coordinates and columns separated by blanks; columns are named in a first
-/// line, which is a comment. Throws FormatError if the stream fails.
-void writeXyz(OutputBuffer& out, const ModelView& model);
+/// Writes what stands in front of the points of an XYZ file: a comment that names the columns, if
+/// there are any beside x, y and z.
+void writeXyzHeader(std::string& text, const ModelLayout& layout);
 
-/// Writes a point a line, separated by commas, below a line of names.
-void writeCsv(OutputBuffer& out, const ModelView& model);
+/// Writes the line of names of a CSV file.
+void writeCsvHeader(std::string& text, const ModelLayout& layout);
 
 }  // namespace bspc::formats

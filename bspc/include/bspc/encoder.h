@@ -26,7 +26,7 @@ constexpr unsigned kMaxLayers = 32;
 struct EncodeOptions {
   GridRequest grid;
   std::optional<Method> method;  ///< empty: the encoder's choice
-  /// How much time smallness is worth, 1 (quickest) to 9 (smallest), for methods that have a
+  /// How much time smallness is worth, 1 (quickest) to 4 (smallest), for methods that have a
   /// choice; empty: the encoder's choice. With a method that has none, it is an error.
   std::optional<unsigned> effort;
   /// Most points of a tile; 0: as many as suit the method. Smaller tiles make smaller boxes cheaper
@@ -48,6 +48,7 @@ struct EncodeOptions {
 struct EncodeReport {
   Grid grid;
   Method method = Method::Kd;
+  Layout layout = Layout::Progressive;
   std::uint64_t points = 0;
   std::uint64_t dropped = 0;  ///< non-finite points left out on request
   std::uint64_t tiles = 0;

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "geometry/bsp/bsp_method.h"
+#include "geometry/fast/fast_method.h"
 #include "geometry/kd/kd_method.h"
 #include "geometry/partition/partition_method.h"
 
@@ -15,8 +16,9 @@ struct NamedMethod {
   const char* name;
 };
 
-constexpr std::array<NamedMethod, 4> kMethods{{
+constexpr std::array<NamedMethod, 5> kMethods{{
     {Method::Kd, "kd"},
+    {Method::Fast, "fast"},
     {Method::Bsp, "bsp"},
     {Method::Octree, "octree"},
     {Method::GenCode, "gencode"},
@@ -49,10 +51,13 @@ namespace geometry {
 
 const GeometryMethod* findGeometryMethod(Method id) {
   static const KdMethod kd;
+  static const FastMethod fast;
   static const BspMethod bsp;
   switch (id) {
     case Method::Kd:
       return &kd;
+    case Method::Fast:
+      return &fast;
     case Method::Bsp:
       return &bsp;
     case Method::Octree:

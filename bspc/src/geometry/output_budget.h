@@ -20,17 +20,17 @@ class OutputBudget {
         bytesPerPoint_(sizeof(GridPoint) + (tile.wantCounts ? 8U : 0U) +
                        (tile.cellLevel ? 8U : 0U)) {}
 
-  /// To be called before one more point is appended.
-  void beforeAppend(DecodedTile& out) const {
+  /// To be called before `more` points are appended.
+  void beforeAppend(DecodedTile& out, std::uint64_t more = 1) const {
     const std::uint64_t size = out.points.size();
-    if (size < out.points.capacity()) return;
-    if (size >= maxPoints_) {
+    if (more <= out.points.capacity() - size) return;
+    if (more > maxPoints_ || size > maxPoints_ - more) {
       throw Error(ErrorCode::LimitExceeded, "the file holds more points than the limit of " +
                                                 std::to_string(maxPoints_) +
                                                 "; raise the limit if the file is to be trusted");
     }
     const std::uint64_t wished = std::max<std::uint64_t>(2 * size, kFirst);
-    const std::uint64_t capacity = std::max(std::min({wished, claimed_, maxPoints_}), size + 1);
+    const std::uint64_t capacity = std::max(std::min({wished, claimed_, maxPoints_}), size + more);
     // While it grows, the old and the new array stand side by side.
     checkBytes((size + capacity) * bytesPerPoint_);
     out.points.reserve(static_cast<std::size_t>(capacity));

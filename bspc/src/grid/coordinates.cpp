@@ -18,7 +18,7 @@ T load(const unsigned char* from) {
 }
 
 template <class T>
-void requireWithin(const PointSetView& points) {
+void requireWithin(const PointSetView& points, std::uint64_t firstIndex) {
   constexpr auto kLimit = static_cast<T>(std::int64_t{1} << 53);
   const auto* data = static_cast<const unsigned char*>(points.data());
   for (std::uint64_t i = 0; i < points.size(); ++i) {
@@ -28,7 +28,7 @@ void requireWithin(const PointSetView& points) {
       if constexpr (std::is_signed_v<T>) within = within && value >= -kLimit;
       if (within) continue;
       throw Error(ErrorCode::InvalidArgument,
-                  "point " + std::to_string(i) + " has " + "xyz"[axis] + " = " +
+                  "point " + std::to_string(firstIndex + i) + " has " + "xyz"[axis] + " = " +
                       std::to_string(value) +
                       ", beyond the integers up to 2^53 that a grid can restore; subtract an "
                       "offset from the coordinates");
@@ -39,8 +39,8 @@ void requireWithin(const PointSetView& points) {
 }  // namespace
 
 template <class T>
-void Coordinates::gatherAs(std::size_t axis, std::uint64_t first, std::size_t count, double* out,
-                           std::uint64_t hop) const {
+void ViewCoordinates::gatherAs(std::size_t axis, std::uint64_t first, std::size_t count,
+                               double* out, std::uint64_t hop) const {
   const std::size_t stride = points_.strideBytes();
   const auto* data = static_cast<const unsigned char*>(points_.data()) + axis * sizeof(T);
   if (kept_.empty()) {
@@ -55,8 +55,8 @@ void Coordinates::gatherAs(std::size_t axis, std::uint64_t first, std::size_t co
   }
 }
 
-void Coordinates::gather(std::size_t axis, std::uint64_t first, std::size_t count, double* out,
-                         std::uint64_t hop) const {
+void ViewCoordinates::gather(std::size_t axis, std::uint64_t first, std::size_t count, double* out,
+                             std::uint64_t hop) const {
   switch (points_.type()) {
     case ScalarType::Float32:
       return gatherAs<float>(axis, first, count, out, hop);
@@ -92,9 +92,9 @@ std::vector<double> Coordinates::sample(std::size_t axis, std::size_t wanted) co
   return values;
 }
 
-void requireIntegersInDoubles(const PointSetView& points) {
-  if (points.type() == ScalarType::Int64) requireWithin<std::int64_t>(points);
-  if (points.type() == ScalarType::UInt64) requireWithin<std::uint64_t>(points);
+void requireIntegersInDoubles(const PointSetView& points, std::uint64_t firstIndex) {
+  if (points.type() == ScalarType::Int64) requireWithin<std::int64_t>(points, firstIndex);
+  if (points.type() == ScalarType::UInt64) requireWithin<std::uint64_t>(points, firstIndex);
 }
 
 }  // namespace bspc::lattice

@@ -23,23 +23,21 @@ struct AxisRange {
 
 using Ranges = std::array<AxisRange, 3>;
 
-/// The coordinates of the points that are kept, converted to double a chunk at a time, so that
-/// nothing needs a copy of the points or a type switch for each number.
+/// The coordinates of points, wherever they are kept, converted to double a chunk at a time, so
+/// that nothing needs a copy of the points or a type switch for each number.
 class Coordinates {
  public:
   static constexpr std::size_t kChunk = 512;
   using Chunk = std::array<double, kChunk>;
 
-  /// Both must outlive this; `kept` holds input indices, and is empty for "all of them".
-  Coordinates(const PointSetView& points, const std::vector<std::uint64_t>& kept)
-      : points_(points), kept_(kept), size_(kept.empty() ? points.size() : kept.size()) {}
+  virtual ~Coordinates() = default;
 
   std::uint64_t size() const { return size_; }
-  ScalarType type() const { return points_.type(); }
+  ScalarType type() const { return type_; }
 
   /// Coordinates of the points first … first + count − 1 along `axis`, each `hop` points apart.
-  void gather(std::size_t axis, std::uint64_t first, std::size_t count, double* out,
-              std::uint64_t hop = 1) const;
+  virtual void gather(std::size_t axis, std::uint64_t first, std::size_t count, double* out,
+                      std::uint64_t hop = 1) const = 0;
 
   /// Up to `wanted` coordinates spread over the whole set.
   std::vector<double> sample(std::size_t axis, std::size_t wanted) const;
@@ -63,6 +61,26 @@ class Coordinates {
     return static_cast<std::size_t>(std::min<std::uint64_t>(kChunk, size_ - first));
   }
 
+ protected:
+  Coordinates(ScalarType type, std::uint64_t size) : type_(type), size_(size) {}
+
+ private:
+  ScalarType type_;
+  std::uint64_t size_;
+};
+
+/// Those of the points of a view that are kept.
+class ViewCoordinates final : public Coordinates {
+ public:
+  /// Both must outlive this; `kept` holds input indices, and is empty for "all of them".
+  ViewCoordinates(const PointSetView& points, const std::vector<std::uint64_t>& kept)
+      : Coordinates(points.type(), kept.empty() ? points.size() : kept.size()),
+        points_(points),
+        kept_(kept) {}
+
+  void gather(std::size_t axis, std::uint64_t first, std::size_t count, double* out,
+              std::uint64_t hop) const override;
+
  private:
   template <class T>
   void gatherAs(std::size_t axis, std::uint64_t first, std::size_t count, double* out,
@@ -70,11 +88,10 @@ class Coordinates {
 
   const PointSetView& points_;
   const std::vector<std::uint64_t>& kept_;
-  std::uint64_t size_;
 };
 
 /// Throws Error(InvalidArgument) naming the point if a 64-bit integer is beyond ±2^53, where
-/// doubles have gaps.
-void requireIntegersInDoubles(const PointSetView& points);
+/// doubles have gaps. `firstIndex` is that of the view's first point.
+void requireIntegersInDoubles(const PointSetView& points, std::uint64_t firstIndex = 0);
 
 }  // namespace bspc::lattice

@@ -10,6 +10,7 @@
 
 #include "bspc/error.h"
 #include "grid/axis_map.h"
+#include "grid/known_lattice.h"
 #include "grid/lattice.h"
 #include "grid/step_choice.h"
 
@@ -64,15 +65,15 @@ class FiniteMarks {
 };
 
 [[noreturn]] void refuseNonFinite(const PointSetView& points, std::uint64_t index,
-                                  std::uint64_t others) {
+                                  std::uint64_t firstIndex, std::uint64_t others) {
   const auto xyz = points.position(index);
   std::size_t axis = 0;
   while (std::isfinite(xyz[axis])) ++axis;
   const std::string number = std::isnan(xyz[axis]) ? "nan" : (xyz[axis] > 0 ? "inf" : "-inf");
   const std::string more =
       others == 0 ? "" : " (and " + std::to_string(others) + " more points are not finite)";
-  throw Error(ErrorCode::NonFinite, "point " + std::to_string(index) + " has " + "xyz"[axis] +
-                                        " = " + number + more +
+  throw Error(ErrorCode::NonFinite, "point " + std::to_string(firstIndex + index) + " has " +
+                                        "xyz"[axis] + " = " + number + more +
                                         "; leave such points out with --drop-nonfinite "
                                         "(dropNonFinite in the library), or repair them");
 }
@@ -111,11 +112,11 @@ void Progress::report(double share) {
   }
 }
 
-FinitePoints finitePoints(const PointSetView& points, bool drop) {
+FinitePoints finitePoints(const PointSetView& points, bool drop, std::uint64_t firstIndex) {
   FinitePoints result;
   if (!isFloatingPoint(points.type())) return result;
   const std::vector<std::uint64_t> none;
-  const Coordinates all(points, none);
+  const ViewCoordinates all(points, none);
   std::uint64_t firstBad = 0;
   for (std::uint64_t first = 0; first < all.size(); first += Coordinates::kChunk) {
     const FiniteMarks marks(all, first, all.chunkSize(first));
@@ -124,7 +125,7 @@ FinitePoints finitePoints(const PointSetView& points, bool drop) {
     result.dropped += count;
   }
   if (result.dropped == 0) return result;
-  if (!drop) refuseNonFinite(points, firstBad, result.dropped - 1);
+  if (!drop) refuseNonFinite(points, firstBad, firstIndex, result.dropped - 1);
   result.kept.reserve(static_cast<std::size_t>(all.size() - result.dropped));
   for (std::uint64_t first = 0; first < all.size(); first += Coordinates::kChunk) {
     const std::size_t size = all.chunkSize(first);
@@ -166,26 +167,29 @@ void placeBases(Grid& grid, const Ranges& ranges) {
   }
 }
 
-void quantise(const Coordinates& coordinates, const Ranges& ranges, GridFit& fit,
-              Progress& progress) {
+std::uint32_t topIndex(const Grid& grid, std::size_t axis, const AxisRange& range) {
+  const double top = AxisMap(grid, axis).snap(range.max).multiple;
+  return static_cast<std::uint32_t>(top - static_cast<double>(grid.axes[axis].base));
+}
+
+std::array<double, 3> quantise(const Coordinates& coordinates, const Ranges& ranges,
+                               const Grid& grid, const GridPointSink& sink,
+                               const ShareReport& report) {
   constexpr std::uint64_t kReportEvery = 128 * Coordinates::kChunk;
-  const std::array<AxisMap, 3> maps{AxisMap(fit.grid, 0), AxisMap(fit.grid, 1),
-                                    AxisMap(fit.grid, 2)};
-  fit.points.resize(static_cast<std::size_t>(coordinates.size()));
-  fit.maxError = {};
+  const std::array<AxisMap, 3> maps{AxisMap(grid, 0), AxisMap(grid, 1), AxisMap(grid, 2)};
+  std::array<double, 3> maxErrors{};
   Coordinates::Chunk chunk{};
+  std::vector<GridPoint> points(Coordinates::kChunk);
   const auto total = static_cast<double>(coordinates.size());
   for (std::uint64_t first = 0; first < coordinates.size(); first += Coordinates::kChunk) {
-    if (first % kReportEvery == 0) {
-      progress.report(kGridChosen + (1 - kGridChosen) * (static_cast<double>(first) / total));
-    }
+    if (first % kReportEvery == 0) report(static_cast<double>(first) / total);
     const std::size_t count = coordinates.chunkSize(first);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const AxisMap map = maps[axis];
-      const auto base = static_cast<double>(fit.grid.axes[axis].base);
+      const auto base = static_cast<double>(grid.axes[axis].base);
       // Ties may be broken differently for neighbours, but nothing may leave the index range.
       const double top = map.snap(ranges[axis].max).multiple;
-      double maxError = fit.maxError[axis];
+      double maxError = maxErrors[axis];
       coordinates.gather(axis, first, count, chunk.data());
       for (std::size_t i = 0; i < count; ++i) {
         AxisMap::Snapped snapped = map.snap(chunk[i]);
@@ -194,19 +198,25 @@ void quantise(const Coordinates& coordinates, const Ranges& ranges, GridFit& fit
           snapped.error = std::fabs(map.restored(snapped.multiple) - chunk[i]);
         }
         maxError = std::max(maxError, snapped.error);
-        fit.points[static_cast<std::size_t>(first) + i][axis] =
-            static_cast<std::uint32_t>(snapped.multiple - base);
+        points[i][axis] = static_cast<std::uint32_t>(snapped.multiple - base);
       }
-      fit.maxError[axis] = maxError;
+      maxErrors[axis] = maxError;
     }
+    sink(first, Span<const GridPoint>(points.data(), count));
   }
-  fit.exact = fit.maxError[0] == 0 && fit.maxError[1] == 0 && fit.maxError[2] == 0;
+  return maxErrors;
 }
 
 namespace {
 
-Grid automaticGrid(const Coordinates& coordinates, const Ranges& ranges) {
-  if (const auto lattice = detectLattice(coordinates, ranges)) return *lattice;
+Grid automaticGrid(const Coordinates& coordinates, const Ranges& ranges,
+                   const GridRequest& request) {
+  const auto known = request.knownLattice
+                         ? confirmedLattice(*request.knownLattice, coordinates, ranges)
+                         : std::nullopt;
+  const auto lattice = detectLattice(coordinates, ranges);
+  if (known && (!lattice || isCoarser(*known, *lattice, ranges))) return *known;
+  if (lattice) return *lattice;
   if (isFloatingPoint(coordinates.type())) return defaultGrid(coordinates.type(), ranges);
   Grid wholeNumbers;  // which placing the bases will refuse by the axis that is too large
   wholeNumbers.scalarType = coordinates.type();
@@ -230,13 +240,36 @@ Grid chooseGrid(const Coordinates& coordinates, const Ranges& ranges, const Grid
     case GridRequest::Kind::Automatic:
       break;
   }
-  return automaticGrid(coordinates, ranges);
+  return automaticGrid(coordinates, ranges, request);
+}
+
+/// Puts the points on fit.grid.
+void quantiseInto(GridFit& fit, const Coordinates& coordinates, const Ranges& ranges,
+                  Progress& progress) {
+  fit.points.resize(static_cast<std::size_t>(coordinates.size()));
+  const auto sink = [&fit](std::uint64_t first, Span<const GridPoint> points) {
+    std::copy(points.begin(), points.end(),
+              fit.points.begin() + static_cast<std::ptrdiff_t>(first));
+  };
+  fit.maxError = quantise(coordinates, ranges, fit.grid, sink, [&progress](double share) {
+    progress.report(kGridChosen + (1 - kGridChosen) * share);
+  });
+  fit.exact = fit.maxError[0] == 0 && fit.maxError[1] == 0 && fit.maxError[2] == 0;
+}
+
+}  // namespace
+
+Grid placedGrid(const Coordinates& coordinates, const Ranges& ranges, const GridRequest& request) {
+  Grid grid = chooseGrid(coordinates, ranges, request);
+  placeBases(grid, ranges);
+  return grid;
 }
 
 void validate(const GridRequest& request) {
   if (request.kind == GridRequest::Kind::Bits) GridRequest::withBits(request.bits);
   if (request.kind == GridRequest::Kind::Precision) GridRequest::withPrecision(request.precision);
   if (request.kind == GridRequest::Kind::Reuse) request.reuse.validate();
+  if (request.knownLattice) request.knownLattice->validate();
 }
 
 Grid emptyGrid(ScalarType type, const GridRequest& request) {
@@ -247,16 +280,13 @@ Grid emptyGrid(ScalarType type, const GridRequest& request) {
   return grid;
 }
 
-/// Whether rounding to the scalar type breaks the promised half of the precision, which the
-/// doubles themselves keep.
-bool needsDoubles(const GridFit& fit, const GridRequest& request) {
+bool needsDoubles(const Grid& grid, const std::array<double, 3>& maxError,
+                  const GridRequest& request) {
   if (request.kind != GridRequest::Kind::Precision) return false;
   const double allowed = request.precision / 2 * (1 + 1e-9);
-  return fit.grid.scalarType != ScalarType::Float64 &&
-         *std::max_element(fit.maxError.begin(), fit.maxError.end()) > allowed;
+  return grid.scalarType != ScalarType::Float64 &&
+         *std::max_element(maxError.begin(), maxError.end()) > allowed;
 }
-
-}  // namespace
 
 }  // namespace lattice
 
@@ -275,16 +305,15 @@ GridFit fitGrid(const PointSetView& points, const GridRequest& request,
     stages.report(1);
     return fit;
   }
-  const lattice::Coordinates coordinates(points, fit.sourceIndex);
+  const lattice::ViewCoordinates coordinates(points, fit.sourceIndex);
   const lattice::Ranges ranges = lattice::rangesOf(coordinates);
   stages.report(lattice::kScanned);
-  fit.grid = lattice::chooseGrid(coordinates, ranges, request);
-  lattice::placeBases(fit.grid, ranges);
-  lattice::quantise(coordinates, ranges, fit, stages);
-  if (lattice::needsDoubles(fit, request)) {
+  fit.grid = lattice::placedGrid(coordinates, ranges, request);
+  lattice::quantiseInto(fit, coordinates, ranges, stages);
+  if (lattice::needsDoubles(fit.grid, fit.maxError, request)) {
     fit.grid.scalarType = ScalarType::Float64;
     lattice::placeBases(fit.grid, ranges);
-    lattice::quantise(coordinates, ranges, fit, stages);
+    lattice::quantiseInto(fit, coordinates, ranges, stages);
   }
   stages.report(1);
   return fit;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "bspc/grid.h"
@@ -26,18 +28,42 @@ struct FinitePoints {
   std::uint64_t dropped = 0;
 };
 
-/// Throws Error(NonFinite) naming the first point that is not finite unless `drop`.
-FinitePoints finitePoints(const PointSetView& points, bool drop);
+/// Throws Error(NonFinite) naming the first point that is not finite unless `drop`; `firstIndex` is
+/// the index of the view's first point.
+FinitePoints finitePoints(const PointSetView& points, bool drop, std::uint64_t firstIndex = 0);
 
 /// Least and greatest coordinates; there is at least one point.
 Ranges rangesOf(const Coordinates& coordinates);
+
+/// Throws Error(InvalidArgument) for a request whose numbers are out of range.
+void validate(const GridRequest& request);
+
+/// The grid of a set without points.
+Grid emptyGrid(ScalarType type, const GridRequest& request);
+
+/// The grid that a request means for these coordinates, bases placed.
+Grid placedGrid(const Coordinates& coordinates, const Ranges& ranges, const GridRequest& request);
 
 /// Sets the bases to the least multiples of the data. Throws Error(OutOfGrid) naming the axis if
 /// the indices would not fit.
 void placeBases(Grid& grid, const Ranges& ranges);
 
-/// Fills fit.points, exact and maxError for fit.grid, whose bases are placed.
-void quantise(const Coordinates& coordinates, const Ranges& ranges, GridFit& fit,
-              Progress& progress);
+/// The greatest index along an axis of a grid whose bases are placed.
+std::uint32_t topIndex(const Grid& grid, std::size_t axis, const AxisRange& range);
+
+/// Takes the grid points first, first + 1, …; called in order.
+using GridPointSink = std::function<void(std::uint64_t first, Span<const GridPoint> points)>;
+using ShareReport = std::function<void(double share)>;
+
+/// Hands every coordinate's grid point on; the grid's bases are placed. Returns the greatest error
+/// along each axis.
+std::array<double, 3> quantise(const Coordinates& coordinates, const Ranges& ranges,
+                               const Grid& grid, const GridPointSink& sink,
+                               const ShareReport& report);
+
+/// Whether rounding to the scalar type breaks the promised half of the precision, which the
+/// doubles themselves keep.
+bool needsDoubles(const Grid& grid, const std::array<double, 3>& maxError,
+                  const GridRequest& request);
 
 }  // namespace bspc::lattice

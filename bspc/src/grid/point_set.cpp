@@ -29,9 +29,9 @@ PointSetView::PointSetView(const void* xyz, ScalarType type, std::uint64_t count
 
 std::array<double, 3> PointSetView::position(std::uint64_t i) const {
   const std::vector<std::uint64_t> all;
-  const lattice::Coordinates coordinates(*this, all);
+  const lattice::ViewCoordinates coordinates(*this, all);
   std::array<double, 3> xyz{};
-  for (std::size_t axis = 0; axis < 3; ++axis) coordinates.gather(axis, i, 1, &xyz[axis]);
+  for (std::size_t axis = 0; axis < 3; ++axis) coordinates.gather(axis, i, 1, &xyz[axis], 1);
   return xyz;
 }
 

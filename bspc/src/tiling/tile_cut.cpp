@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "tiling/cell_code.h"
+#include "tiling/cell_groups.h"
 
 namespace bspc::tiling {
 
@@ -26,12 +27,6 @@ class TileCutter {
   }
 
  private:
-  /// Cells next to each other in the order of their codes that go into one tile.
-  struct Group {
-    std::size_t points = 0;
-    bool small = false;  ///< whether others may still join
-  };
-
   void cutRange(std::size_t first, std::size_t last) {
     if (last - first <= most_) {
       if (first < last) cut_.firsts.push_back(first);
@@ -40,13 +35,13 @@ class TileCutter {
     const DyadicBox box = boxOf(first, last);
     if (box.depth() == 0) return cutEqual(first, last);
     const CellCode code(box, kLevelsAtOnce);
-    std::vector<std::size_t> counts(code.cells());
+    std::vector<std::uint64_t> counts(code.cells());
     for (std::size_t i = first; i < last; ++i) ++counts[code(points_[cut_.order[i]])];
-    const std::vector<std::size_t> sizes = groupCells(counts);
-    sortIntoGroups(first, last, code, sizes.size());
-    for (const std::size_t size : sizes) {
-      cutRange(first, first + size);
-      first += size;
+    const CellGroups groups = groupCells(counts, most_);
+    sortIntoGroups(first, last, code, groups);
+    for (const std::uint64_t size : groups.sizes) {
+      cutRange(first, first + static_cast<std::size_t>(size));
+      first += static_cast<std::size_t>(size);
     }
   }
 
@@ -68,49 +63,15 @@ class TileCutter {
     return dyadicBox(lower, upper);
   }
 
-  /// Fills groupOf_ and returns the sizes of the groups, none of them empty.
-  std::vector<std::size_t> groupCells(const std::vector<std::size_t>& counts) {
-    groupOf_.assign(counts.size(), 0);
-    groups_.clear();
-    groupSubtree(counts, 0, counts.size());
-    std::vector<std::size_t> sizes;
-    sizes.reserve(groups_.size());
-    for (const Group& group : groups_) sizes.push_back(group.points);
-    return sizes;
-  }
-
-  void groupSubtree(const std::vector<std::size_t>& counts, std::size_t first, std::size_t last) {
-    const std::size_t points =
-        std::accumulate(counts.begin() + static_cast<std::ptrdiff_t>(first),
-                        counts.begin() + static_cast<std::ptrdiff_t>(last), std::size_t{0});
-    if (points == 0) return;
-    if (points > most_ && last - first > 1) {
-      const std::size_t middle = first + (last - first) / 2;
-      groupSubtree(counts, first, middle);
-      groupSubtree(counts, middle, last);
-      return;
-    }
-    // A tile of few points costs more than a box that is a little larger.
-    const bool small = points < most_ / 4;
-    const bool joins = !groups_.empty() && (small || groups_.back().small) &&
-                       groups_.back().points + points <= most_;
-    if (!joins) groups_.push_back({0, small});
-    groups_.back().points += points;
-    groups_.back().small = groups_.back().points < most_ / 4;
-    std::fill(groupOf_.begin() + static_cast<std::ptrdiff_t>(first),
-              groupOf_.begin() + static_cast<std::ptrdiff_t>(last),
-              static_cast<std::uint32_t>(groups_.size() - 1));
-  }
-
   /// Stable: points of a tile stay in the order of the input.
   void sortIntoGroups(std::size_t first, std::size_t last, const CellCode& code,
-                      std::size_t groups) {
-    std::vector<std::size_t> next(groups, 0);
-    for (std::size_t g = 1; g < groups; ++g) next[g] = next[g - 1] + groups_[g - 1].points;
+                      const CellGroups& groups) {
+    std::vector<std::uint64_t> next(groups.sizes.size(), 0);
+    for (std::size_t g = 1; g < next.size(); ++g) next[g] = next[g - 1] + groups.sizes[g - 1];
     std::vector<std::uint32_t> sorted(last - first);
     for (std::size_t i = first; i < last; ++i) {
       const std::uint32_t index = cut_.order[i];
-      sorted[next[groupOf_[code(points_[index])]]++] = index;
+      sorted[static_cast<std::size_t>(next[groups.groupOf[code(points_[index])]]++)] = index;
     }
     std::copy(sorted.begin(), sorted.end(),
               cut_.order.begin() + static_cast<std::ptrdiff_t>(first));
@@ -119,8 +80,6 @@ class TileCutter {
   Span<const GridPoint> points_;
   std::size_t most_;
   TileCut cut_;
-  std::vector<Group> groups_;
-  std::vector<std::uint32_t> groupOf_;  ///< by code of the cell
 };
 
 }  // namespace

@@ -2,11 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <cstring>
+#include <memory>
 #include <random>
 #include <sstream>
 #include <streambuf>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "formats/model_io.h"
@@ -32,16 +37,55 @@ class PipeBuffer : public std::streambuf {
   std::size_t at_ = 0;
 };
 
-/// Reads the text as a file and as a pipe, which must give the same.
+enum class Order { Little, Big };
+
+/// Appends the bytes of a number in the given order, whatever the machine's.
+template <class T>
+void put(std::string& out, Order order, T value) {
+  std::array<char, sizeof(T)> bytes;
+  std::memcpy(bytes.data(), &value, sizeof(T));
+  const std::uint16_t probe = 1;
+  std::uint8_t first = 0;
+  std::memcpy(&first, &probe, 1);
+  if ((first == 1) != (order == Order::Little)) std::reverse(bytes.begin(), bytes.end());
+  out.append(bytes.data(), bytes.size());
+}
+
+/// Reads a model in pieces of `count` points.
+inline Model readInPieces(std::istream& in, Format format, std::size_t count) {
+  const std::unique_ptr<PointStream> points = openPointStream(in, format);
+  Model model;
+  std::vector<std::uint8_t> piece(count * 3 * scalarSize(points->info().type));
+  const ScalarType type = points->info().type;
+  std::size_t got = count;
+  while (got == count) {
+    got = points->read(piece.data(), count);
+    const std::size_t bytes = got * piece.size() / count;
+    model.positions.insert(model.positions.end(), piece.data(), piece.data() + bytes);
+  }
+  EXPECT_EQ(points->read(piece.data(), count), 0U);
+  static_cast<ModelInfo&>(model) = points->info();
+  EXPECT_EQ(model.type, type);
+  return model;
+}
+
+/// Reads the text as a file, as a pipe, and in pieces, which must give the same.
 inline Model read(const std::string& text, Format format) {
   std::istringstream file(text);
   Model model = readModel(file, format);
   PipeBuffer buffer(text);
   std::istream pipe(&buffer);
-  const Model piped = readModel(pipe, format);
-  EXPECT_EQ(model.type, piped.type);
-  EXPECT_EQ(model.positions, piped.positions);
-  EXPECT_EQ(model.otherContent, piped.otherContent);
+  std::vector<Model> others{readModel(pipe, format)};
+  for (const std::size_t count : {1U, 2U, 1000U}) {
+    std::istringstream again(text);
+    others.push_back(readInPieces(again, format, count));
+  }
+  for (const Model& other : others) {
+    EXPECT_EQ(model.type, other.type);
+    EXPECT_EQ(model.positions, other.positions);
+    EXPECT_EQ(model.otherContent, other.otherContent);
+    EXPECT_EQ(model.comments, other.comments);
+  }
   return model;
 }
 
@@ -74,8 +118,10 @@ inline void expectInMessage(const std::string& message, const std::vector<std::s
   }
 }
 
-/// Changes, cuts and doubles pieces of a good file: each must be read or refused by FormatError.
-inline void expectNoMutationHarms(const std::string& good, Format format, int mutations) {
+/// Changes, cuts and doubles pieces of a good file: each must be read or refused by FormatError. A
+/// byte of a file becomes at most `bytesOfByte` bytes of positions.
+inline void expectNoMutationHarms(const std::string& good, Format format, int mutations,
+                                  std::size_t bytesOfByte = 24) {
   std::mt19937_64 random(good.size());
   const auto below = [&](std::size_t end) { return static_cast<std::size_t>(random() % end); };
   const std::string snippets[] = {
@@ -104,7 +150,7 @@ inline void expectNoMutationHarms(const std::string& good, Format format, int mu
     try {
       const Model model = readModel(in, format);
       // Memory follows the bytes that there are, not what they claim.
-      EXPECT_LE(model.positions.size(), 24 * (text.size() + 1));
+      EXPECT_LE(model.positions.size(), bytesOfByte * (text.size() + 1));
     } catch (const FormatError& error) {
       ++refused;
       EXPECT_NE(std::string(error.what()), "");

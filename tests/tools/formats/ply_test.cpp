@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <array>
-
 #include "tools/formats/format_test_support.h"
 
 namespace bspc::formats {
@@ -10,22 +7,10 @@ namespace {
 using test::expectInMessage;
 using test::failure;
 using test::numbers;
+using test::Order;
+using test::put;
 using test::read;
 using test::written;
-
-enum class Order { Little, Big };
-
-/// Appends the bytes of a number in the given order, whatever the machine's.
-template <class T>
-void put(std::string& out, Order order, T value) {
-  std::array<char, sizeof(T)> bytes;
-  std::memcpy(bytes.data(), &value, sizeof(T));
-  const std::uint16_t probe = 1;
-  std::uint8_t first = 0;
-  std::memcpy(&first, &probe, 1);
-  if ((first == 1) != (order == Order::Little)) std::reverse(bytes.begin(), bytes.end());
-  out.append(bytes.data(), bytes.size());
-}
 
 std::string header(const std::string& format, const std::string& elements) {
   return "ply\nformat " + format + " 1.0\ncomment a scan\n" + elements + "end_header\n";

@@ -1,0 +1,222 @@
+// Sizes and speeds of bspc beside those of Draco's kd-tree coder for point clouds, in one process
+// on one core. Run: draco_benchmark [--repeat N] FILE.ply...
+//
+// Both coders get the same whole numbers, and both must give all of them back: a model that lies
+// on no lattice is left out. Draco's coder takes integers as they are, so no quantisation comes
+// between. bspc writes one layer, since Draco has no levels of detail; sizes are of whole files,
+// times of everything between coordinates and bytes in memory. Runs of the coders alternate, so
+// that a busy spell of the machine meets all of them, and each time is the median.
+
+#include <draco/compression/decode.h>
+#include <draco/compression/encode.h>
+#include <draco/point_cloud/point_cloud.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bspc/decoder.h"
+#include "bspc/encoder.h"
+#include "formats/model_io.h"
+
+namespace bspc {
+namespace {
+
+/// Three whole numbers a point.
+using Coordinates = std::vector<std::int32_t>;
+
+struct Coder {
+  std::string name;
+  std::function<Bytes(const Coordinates&)> encode;
+  std::function<Coordinates(const Bytes&)> decode;
+};
+
+Bytes encodeWithDraco(const Coordinates& xyz, int speed) {
+  const std::size_t count = xyz.size() / 3;
+  draco::PointCloud cloud;
+  cloud.set_num_points(static_cast<std::uint32_t>(count));
+  draco::GeometryAttribute position;
+  position.Init(draco::GeometryAttribute::POSITION, nullptr, 3, draco::DT_INT32, false,
+                3 * sizeof(std::int32_t), 0);
+  const int id = cloud.AddAttribute(position, true, static_cast<std::uint32_t>(count));
+  std::memcpy(cloud.attribute(id)->buffer()->data(), xyz.data(), xyz.size() * sizeof(xyz[0]));
+  draco::Encoder encoder;
+  encoder.SetEncodingMethod(draco::POINT_CLOUD_KD_TREE_ENCODING);
+  encoder.SetSpeedOptions(speed, speed);
+  draco::EncoderBuffer buffer;
+  const draco::Status status = encoder.EncodePointCloudToBuffer(cloud, &buffer);
+  if (!status.ok()) throw std::runtime_error("Draco: " + status.error_msg_string());
+  return {buffer.data(), buffer.data() + buffer.size()};
+}
+
+Coordinates decodeWithDraco(const Bytes& bytes) {
+  draco::DecoderBuffer buffer;
+  buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  draco::Decoder decoder;
+  auto result = decoder.DecodePointCloudFromBuffer(&buffer);
+  if (!result.ok()) throw std::runtime_error("Draco: " + result.status().error_msg_string());
+  const std::unique_ptr<draco::PointCloud> cloud = std::move(result).value();
+  const auto* position = cloud->GetNamedAttribute(draco::GeometryAttribute::POSITION);
+  Coordinates xyz(3 * std::size_t{cloud->num_points()});
+  for (std::uint32_t i = 0; i < cloud->num_points(); ++i) {
+    position->GetMappedValue(draco::PointIndex(i), &xyz[3 * std::size_t{i}]);
+  }
+  return xyz;
+}
+
+Bytes encodeWithBspc(const Coordinates& xyz, const EncodeOptions& options) {
+  MemorySink sink;
+  encode(PointSetView(xyz.data(), xyz.size() / 3), sink, options);
+  return sink.bytes();
+}
+
+Coordinates decodeWithBspc(const Bytes& bytes) {
+  Decoder decoder(std::make_shared<MemorySource>(bytes));
+  const DecodedPoints decoded = decoder.decode();
+  Coordinates xyz(3 * decoded.points.size());
+  restorePositions(decoder.info().grid, Span<const GridPoint>(decoded.points), xyz.data());
+  return xyz;
+}
+
+std::vector<Coder> allCoders() {
+  std::vector<Coder> coders;
+  for (const int speed : {0, 10}) {
+    coders.push_back({"draco speed " + std::to_string(speed),
+                      [speed](const Coordinates& xyz) { return encodeWithDraco(xyz, speed); },
+                      decodeWithDraco});
+  }
+  for (const Method method : availableMethods()) {
+    EncodeOptions options;
+    options.layers = 1;
+    options.method = method;
+    coders.push_back({std::string("bspc ") + methodName(method),
+                      [options](const Coordinates& xyz) { return encodeWithBspc(xyz, options); },
+                      decodeWithBspc});
+  }
+  return coders;
+}
+
+/// The model's points as steps of the lattice that they lie on.
+Coordinates readOnLattice(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::runtime_error("cannot be opened");
+  const formats::Model model = formats::readModel(file, formats::Format::Ply);
+  const GridFit fit = fitGrid(model.view(), GridRequest::automatic());
+  if (!fit.exact || fit.points.empty()) throw std::runtime_error("lies on no lattice");
+  Coordinates xyz;
+  xyz.reserve(3 * fit.points.size());
+  for (const GridPoint& point : fit.points) {
+    for (const std::uint32_t index : point) {
+      if (index > INT32_MAX) throw std::runtime_error("takes more than 31 bits along an axis");
+      xyz.push_back(static_cast<std::int32_t>(index));
+    }
+  }
+  return xyz;
+}
+
+std::vector<std::array<std::int32_t, 3>> sortedPoints(const Coordinates& xyz) {
+  std::vector<std::array<std::int32_t, 3>> points(xyz.size() / 3);
+  std::memcpy(points.data(), xyz.data(), xyz.size() * sizeof(xyz[0]));
+  std::sort(points.begin(), points.end());
+  return points;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+struct Measurement {
+  std::size_t bytes = 0;
+  std::vector<double> encodeSeconds;
+  std::vector<double> decodeSeconds;
+};
+
+template <class Call>
+double secondsOf(const Call& call) {
+  const auto start = std::chrono::steady_clock::now();
+  call();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// One run of a coder; the first checks what comes back.
+void runOnce(const Coder& coder, const Coordinates& xyz, Measurement& result) {
+  Bytes bytes;
+  Coordinates back;
+  result.encodeSeconds.push_back(secondsOf([&] { bytes = coder.encode(xyz); }));
+  result.decodeSeconds.push_back(secondsOf([&] { back = coder.decode(bytes); }));
+  if (result.bytes == 0 && sortedPoints(back) != sortedPoints(xyz)) {
+    throw std::runtime_error(coder.name + " did not give the points back");
+  }
+  result.bytes = bytes.size();
+}
+
+void printHead() {
+  std::printf("%-24s %10s  %-16s %8s %12s %12s %12s\n", "file", "points", "coder", "bpp",
+              "enc Mpts/s", "dec Mpts/s", "bpp/draco 0");
+}
+
+void compare(const std::string& path, const std::vector<Coder>& coders, int repetitions) {
+  const Coordinates xyz = readOnLattice(path);
+  const std::size_t count = xyz.size() / 3;
+  const auto points = static_cast<double>(count);
+  std::vector<Measurement> results(coders.size());
+  for (int i = 0; i < repetitions; ++i) {
+    for (std::size_t c = 0; c < coders.size(); ++c) runOnce(coders[c], xyz, results[c]);
+  }
+  const std::string name = path.substr(path.rfind('/') + 1);
+  for (std::size_t c = 0; c < coders.size(); ++c) {
+    const Measurement& result = results[c];
+    std::printf("%-24s %10.0f  %-16s %8.3f %12.2f %12.2f %12.3f\n", name.c_str(), points,
+                coders[c].name.c_str(), 8 * static_cast<double>(result.bytes) / points,
+                points / median(result.encodeSeconds) / 1e6,
+                points / median(result.decodeSeconds) / 1e6,
+                static_cast<double>(result.bytes) / static_cast<double>(results[0].bytes));
+  }
+  std::fflush(stdout);
+}
+
+int usage() {
+  std::fputs("Usage: draco_benchmark [--repeat N] FILE.ply...\n", stderr);
+  return 2;
+}
+
+int runAll(int count, char** arguments) {
+  int repetitions = 7;
+  int first = 1;
+  if (count > 2 && std::string(arguments[1]) == "--repeat") {
+    repetitions = static_cast<int>(std::strtol(arguments[2], nullptr, 10));
+    first = 3;
+  }
+  if (first >= count || repetitions < 1) return usage();
+  const std::vector<Coder> coders = allCoders();
+  int failures = 0;
+  printHead();
+  for (int i = first; i < count; ++i) {
+    try {
+      compare(arguments[i], coders, repetitions);
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "%s: %s\n", arguments[i], error.what());
+      ++failures;
+    }
+  }
+  return failures == 0 ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace bspc
+
+int main(int argc, char** argv) { return bspc::runAll(argc, argv); }

@@ -1,0 +1,237 @@
+#include "geometry/fast/axis_remap.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "bspc/error.h"
+#include "container/byte_reader.h"
+#include "container/byte_writer.h"
+#include "geometry/fast/chunk_streams.h"
+
+namespace bspc::geometry::fast {
+
+namespace {
+
+/// What the next step between values depends on. Lattices whose steps are not whole numbers show as
+/// patterns of two steps: two such lattices at once in the last three steps, a single one in how
+/// long the last step has been repeated.
+enum class StepPattern : std::uint8_t { Last = 0, LastThree = 1, Repeats = 2, Count = 3 };
+constexpr unsigned kPatternBits = 2;
+
+class StepContext {
+ public:
+  explicit StepContext(StepPattern pattern) : pattern_(pattern) {}
+
+  static unsigned count(StepPattern pattern) { return pattern == StepPattern::Last ? 8 : 128; }
+  unsigned index() const {
+    const auto last = static_cast<unsigned>(std::min<std::uint64_t>(steps_[0], 7));
+    switch (pattern_) {
+      case StepPattern::LastThree:
+        return (last * 4 + coarse(steps_[1])) * 4 + coarse(steps_[2]);
+      case StepPattern::Repeats:
+        return last * 16 + repeats_;
+      default:
+        return last;
+    }
+  }
+  void push(std::uint64_t step) {
+    repeats_ = step == steps_[0] ? std::min(repeats_ + 1, 15U) : 0;
+    steps_[2] = steps_[1];
+    steps_[1] = steps_[0];
+    steps_[0] = step;
+  }
+
+ private:
+  static unsigned coarse(std::uint64_t step) {
+    return step <= 2 ? 0 : static_cast<unsigned>(std::min<std::uint64_t>(step, 5)) - 2;
+  }
+  StepPattern pattern_;
+  std::uint64_t steps_[3] = {};
+  unsigned repeats_ = 0;
+};
+
+/// Extents up to so many times the number of points are looked at value by value.
+constexpr std::uint64_t kDense = 64;
+
+std::vector<std::uint32_t> distinctDense(const std::vector<std::uint32_t>& coordinates,
+                                         std::uint32_t extent) {
+  std::vector<std::uint64_t> used(extent / 64 + 1, 0);
+  for (const std::uint32_t c : coordinates) used[c / 64] |= std::uint64_t{1} << (c % 64);
+  std::vector<std::uint32_t> values;
+  for (std::size_t word = 0; word < used.size(); ++word) {
+    for (std::uint64_t bits = used[word]; bits != 0; bits &= bits - 1) {
+      values.push_back(
+          static_cast<std::uint32_t>(64 * word + static_cast<unsigned>(__builtin_ctzll(bits))));
+    }
+  }
+  return values;
+}
+
+/// Over a wide range values rarely repeat; a sample tells whether these do.
+std::vector<std::uint32_t> distinctSparse(const std::vector<std::uint32_t>& coordinates) {
+  constexpr std::size_t kSample = 1024;
+  const std::size_t step = std::max<std::size_t>(coordinates.size() / kSample, 1);
+  std::vector<std::uint32_t> values;
+  for (std::size_t i = 0; i < coordinates.size(); i += step) values.push_back(coordinates[i]);
+  const auto makeDistinct = [&values] {
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+  };
+  const std::size_t sampled = values.size();
+  makeDistinct();
+  if (sampled - values.size() < sampled / 64 + 1) return {};
+  values = coordinates;
+  makeDistinct();
+  return values;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> valuesWorthRanking(const std::vector<std::uint32_t>& coordinates,
+                                              std::uint32_t extent) {
+  const std::size_t n = coordinates.size();
+  if (n < 16 || extent < 2) return {};
+  const double range = static_cast<double>(extent) + 1;
+  std::vector<std::uint32_t> values =
+      extent / kDense < n ? distinctDense(coordinates, extent) : distinctSparse(coordinates);
+  if (values.empty()) return {};
+  const auto distinct = static_cast<double>(values.size());
+  const double saved = std::log2(range / distinct);
+  const bool pays = static_cast<double>(n) * saved > 1.1 * distinct * (1.2 + saved) + 256 &&
+                    distinct < 0.9 * range;
+  if (!pays) values.clear();
+  return values;
+}
+
+std::vector<std::uint32_t> ranksOf(const std::vector<std::uint32_t>& coordinates,
+                                   const std::vector<std::uint32_t>& values) {
+  std::vector<std::uint32_t> ranks(coordinates.size());
+  if (values.back() / kDense < coordinates.size()) {
+    std::vector<std::uint32_t> rankOf(std::size_t{values.back()} + 1);
+    for (std::size_t r = 0; r < values.size(); ++r) {
+      rankOf[values[r]] = static_cast<std::uint32_t>(r);
+    }
+    for (std::size_t i = 0; i < ranks.size(); ++i) ranks[i] = rankOf[coordinates[i]];
+    return ranks;
+  }
+  for (std::size_t i = 0; i < ranks.size(); ++i) {
+    ranks[i] = static_cast<std::uint32_t>(
+        std::lower_bound(values.begin(), values.end(), coordinates[i]) - values.begin());
+  }
+  return ranks;
+}
+
+bool isRegular(const std::vector<std::uint32_t>& values) {
+  std::array<std::size_t, 256> steps{};
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    ++steps[std::min<std::uint32_t>(values[i] - values[i - 1], 255)];
+  }
+  std::size_t seen = 0;
+  std::size_t median = 0;
+  while (median < 255 && (seen += steps[median]) * 2 < values.size()) ++median;
+  if (median == 255) return false;
+  const std::size_t near = steps[median] + (median > 0 ? steps[median - 1] : 0) + steps[median + 1];
+  return near * 8 >= values.size() * 7;
+}
+
+namespace {
+
+Bytes writeSteps(const AxisValues& axes, StepPattern pattern) {
+  RansWriter symbols;
+  BitWriter raw;
+  for (const std::vector<std::uint32_t>& values : axes) {
+    StepContext context(pattern);
+    for (std::size_t i = 1; i < values.size(); ++i) {
+      const std::uint64_t step = std::uint64_t{values[i]} - values[i - 1];
+      const unsigned symbol = kStepCode.symbolOf(step - 1);
+      symbols.symbol(context.index(), symbol);
+      const unsigned extra = kStepCode.extraBits(symbol);
+      if (extra > 0) raw.put(step - 1 - kStepCode.base(symbol), extra);
+      context.push(step);
+    }
+  }
+  const unsigned contexts = StepContext::count(pattern);
+  BitWriter tables;
+  tables.put(static_cast<std::uint64_t>(pattern), kPatternBits);
+  const Bytes coded = symbols.finish(
+      writeTables(tables, symbols.counts(contexts), defaultFieldTables(contexts)), 1);
+  const Bytes head = tables.finish();
+  container::ByteWriter out;
+  for (const std::vector<std::uint32_t>& values : axes) {
+    if (!values.empty()) out.varint(values.size());
+  }
+  out.varint(head.size());
+  out.varint(coded.size());
+  out.bytes(head);
+  out.bytes(coded);
+  out.bytes(raw.finish());
+  return out.take();
+}
+
+}  // namespace
+
+Bytes writeValues(const AxisValues& values) {
+  Bytes best = writeSteps(values, StepPattern::Last);
+  for (const StepPattern pattern : {StepPattern::LastThree, StepPattern::Repeats}) {
+    Bytes other = writeSteps(values, pattern);
+    if (other.size() < best.size()) best = std::move(other);
+  }
+  return best;
+}
+
+AxisValues readValues(ByteView section, const std::array<bool, 3>& ranked, std::uint64_t maxValues,
+                      const GridPoint& extent, const OutputBudget& budget) {
+  container::ByteReader reader(section, "the values of the axes", 0);
+  std::uint64_t counts[3] = {};
+  for (unsigned k = 0; k < 3; ++k) {
+    if (!ranked[k]) continue;
+    counts[k] = reader.varint();
+    if (counts[k] < 2 || counts[k] > maxValues || counts[k] > std::uint64_t{extent[k]} + 1) {
+      reader.fail("an impossible number of values");
+    }
+  }
+  const std::size_t headSize = reader.varint32();
+  const std::size_t codedSize = reader.varint32();
+  if (headSize > reader.remaining() || codedSize > reader.remaining() - headSize) {
+    reader.fail("sections that are larger than it");
+  }
+  const ByteView rest = reader.bytes(reader.remaining());
+  Bytes padded(rest.begin(), rest.end());
+  padded.resize(rest.size() + kSectionPadding);
+  BitReader head(padded.data(), headSize);
+  const auto pattern = static_cast<StepPattern>(head.get(kPatternBits));
+  if (pattern >= StepPattern::Count) reader.fail("an unknown pattern of steps");
+  const std::vector<DecodingTable> tables =
+      readTables(head, defaultFieldTables(StepContext::count(pattern)));
+  head.expectEnd();
+  RansReader symbols(padded.data() + headSize, codedSize, 1);
+  BitReader raw(padded.data() + headSize + codedSize, rest.size() - headSize - codedSize);
+
+  AxisValues axes;
+  std::uint64_t kept = 0;
+  for (unsigned k = 0; k < 3; ++k) {
+    std::vector<std::uint32_t>& values = axes[k];
+    if (counts[k] > 0) values.push_back(0);
+    StepContext context(pattern);
+    std::uint64_t value = 0;
+    while (values.size() < counts[k]) {
+      const unsigned symbol = symbols.symbol(tables[context.index()]);
+      std::uint64_t step = kStepCode.base(symbol) + 1;
+      if (const unsigned extra = kStepCode.extraBits(symbol); extra > 0) step += raw.get(extra);
+      value += step;
+      if (value > extent[k]) reader.fail("a value outside of the tile");
+      if (values.size() == values.capacity()) budget.checkBytes(kept + 12 * values.size());
+      values.push_back(static_cast<std::uint32_t>(value));
+      context.push(step);
+    }
+    if (counts[k] > 0 && value != extent[k]) reader.fail("values that end before the tile does");
+    kept += values.capacity() * sizeof(std::uint32_t);
+  }
+  symbols.expectEnd();
+  raw.expectEnd();
+  return axes;
+}
+
+}  // namespace bspc::geometry::fast

@@ -1,0 +1,155 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "bspc/error.h"
+#include "geometry/fast/bit_stream.h"
+#include "geometry/fast/rans.h"
+#include "geometry/fast/surface_model.h"
+#include "geometry/fast/value_code.h"
+
+namespace bspc::geometry::fast {
+
+/// What is told once a chunk; each has a frequency table of its own.
+enum Field : unsigned {
+  kGapClass,
+  kMode,
+  kResidualClass,
+  kHeight,
+  kSlopeU,
+  kSlopeV,
+  kBendUU,
+  kBendUV,
+  kBendVV,
+  kConstantHeight,
+  kFields
+};
+
+/// Tables of the streams that are assumed unless a tile brings its own.
+std::vector<FrequencyTable> defaultTables(const ValueClasses& classes, const ValueCode& code);
+std::vector<FrequencyTable> defaultFieldTables(unsigned count);
+
+/// Chooses for each table between the default and one fitted to the counts, and writes the choice.
+std::vector<FrequencyTable> writeTables(BitWriter& bits, const std::vector<SymbolCounts>& counts,
+                                        std::vector<FrequencyTable> tables);
+/// Reads what writeTables() wrote: the defaults, replaced where the tile brings its own.
+std::vector<DecodingTable> readTables(BitReader& bits, const std::vector<FrequencyTable>& defaults);
+
+/// Where chunks are written to. ChunkReader has the same shape, so that one description
+/// (chunk_coder.h) serves both.
+struct ChunkWriter {
+  static constexpr bool kWriting = true;
+
+  RansWriter gaps;
+  RansWriter residuals;
+  RansWriter fields;
+  BitWriter raw;
+
+  std::uint64_t field(Field which, std::uint64_t value) {
+    const unsigned symbol = kFieldCode.symbolOf(value);
+    fields.symbol(which, symbol);
+    const unsigned extra = kFieldCode.extraBits(symbol);
+    if (extra > 0) raw.put(value - kFieldCode.base(symbol), extra);
+    return value;
+  }
+  template <class T>
+  void gapValues(unsigned cls, T* values, std::size_t count) {
+    this->values(gaps, kGapCode, kGapClasses, cls, values, count);
+  }
+  template <class T>
+  void residualValues(unsigned cls, T* values, std::size_t count) {
+    this->values(residuals, kResidualCode, kResidualClasses, cls, values, count);
+  }
+  std::uint64_t rawField(std::uint64_t value, unsigned width) { return raw.code(value, width); }
+
+ private:
+  template <class T>
+  void values(RansWriter& stream, const ValueCode& code, const ValueClasses& classes, unsigned cls,
+              const T* values, std::size_t count) {
+    const unsigned shift = classes.shift(cls);
+    std::uint8_t* symbols = stream.run(classes.table(cls), count);
+    std::uint64_t all = 0;
+    bool direct = true;
+    for (std::size_t i = 0; i < count; ++i) {
+      all = std::uint64_t{values[i]} >> shift;
+      direct &= all < code.direct();
+      symbols[i] = static_cast<std::uint8_t>(all);
+    }
+    if (direct) {
+      raw.putLowBits(values, count, shift);
+      return;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const unsigned symbol = code.symbolOf(std::uint64_t{values[i]} >> shift);
+      symbols[i] = static_cast<std::uint8_t>(symbol);
+      const unsigned width = shift + code.extraBits(symbol);
+      if (width > 0) raw.put(values[i] - (code.base(symbol) << shift), width);
+    }
+  }
+};
+
+struct ChunkReader {
+  static constexpr bool kWriting = false;
+
+  RansReader gaps;
+  RansReader residuals;
+  RansReader fields;
+  BitReader raw;
+  std::vector<DecodingTable> gapTables;
+  std::vector<DecodingTable> residualTables;
+  std::vector<DecodingTable> fieldTables;
+
+  std::uint64_t field(Field which, std::uint64_t /*value*/) {
+    const unsigned symbol = fields.symbol(fieldTables[which]);
+    const unsigned extra = kFieldCode.extraBits(symbol);
+    return kFieldCode.base(symbol) + (extra > 0 ? raw.get(extra) : 0);
+  }
+  template <class T>
+  void gapValues(unsigned cls, T* values, std::size_t count) {
+    this->values(gaps, gapTables, kGapCode, kGapClasses, cls, values, count);
+  }
+  template <class T>
+  void residualValues(unsigned cls, T* values, std::size_t count) {
+    this->values(residuals, residualTables, kResidualCode, kResidualClasses, cls, values, count);
+  }
+  std::uint64_t rawField(std::uint64_t value, unsigned width) { return raw.code(value, width); }
+
+  void expectEnd(bool withGaps) {
+    if (withGaps) gaps.expectEnd();
+    residuals.expectEnd();
+    fields.expectEnd();
+    raw.expectEnd();
+  }
+
+ private:
+  template <class T>
+  void values(RansReader& stream, const std::vector<DecodingTable>& tables, const ValueCode& code,
+              const ValueClasses& classes, unsigned cls, T* values, std::size_t count) {
+    const unsigned shift = classes.shift(cls);
+    std::array<std::uint8_t, kChunkPoints> symbols;
+    const unsigned greatest = stream.run(tables[classes.table(cls)], count, symbols.data());
+    if (greatest < code.direct()) {
+      if (shift == 0) {
+        for (std::size_t i = 0; i < count; ++i) values[i] = symbols[i];
+        return;
+      }
+      const std::size_t from = raw.advance(count * shift);
+      for (std::size_t i = 0; i < count; ++i) {
+        values[i] =
+            static_cast<T>((std::uint64_t{symbols[i]} << shift) | raw.at(from + i * shift, shift));
+      }
+      return;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const unsigned width = shift + code.extraBits(symbols[i]);
+      if (width > kMaxFieldBits) {
+        throw Error(ErrorCode::Corrupt, "a value has more bits than any coordinate");
+      }
+      values[i] = static_cast<T>((code.base(symbols[i]) << shift) + raw.get(width));
+    }
+  }
+};
+
+}  // namespace bspc::geometry::fast

@@ -1,0 +1,184 @@
+#include "geometry/fast/rans.h"
+
+#include <algorithm>
+#include <string>
+
+#include "bspc/error.h"
+
+namespace bspc::geometry::fast {
+
+namespace {
+
+/// A symbol's part of the whole, prepared so that coding divides by multiplication. The 32-bit
+/// reciprocal is exact for states of 31 bits.
+struct EncodingSymbol {
+  std::uint32_t limit = 0;  ///< states from here on give off a word first
+  std::uint32_t reciprocal = 0;
+  std::uint32_t bias = 0;
+  std::uint16_t complement = 0;
+  std::uint8_t shift = 0;
+
+  EncodingSymbol() = default;
+  EncodingSymbol(std::uint32_t start, std::uint32_t frequency)
+      : limit(((kRansLow >> kFrequencyBits) << 16) * frequency),
+        bias(start),
+        complement(static_cast<std::uint16_t>(kFrequencyTotal - frequency)) {
+    if (frequency < 2) {
+      reciprocal = ~std::uint32_t{0};
+      bias = start + kFrequencyTotal - 1;
+      return;
+    }
+    const unsigned ceilLog2 = entropy::bitLength(frequency - 1);
+    reciprocal = static_cast<std::uint32_t>(
+        ((std::uint64_t{1} << (ceilLog2 + 31)) + frequency - 1) / frequency);
+    shift = static_cast<std::uint8_t>(ceilLog2 - 1);
+  }
+};
+
+using EncodingTable = std::array<EncodingSymbol, kSymbols>;
+
+EncodingTable encodingTable(const FrequencyTable& frequencies) {
+  EncodingTable table;
+  std::uint32_t start = 0;
+  for (unsigned s = 0; s < kSymbols; ++s) {
+    if (frequencies[s] > 0) table[s] = EncodingSymbol(start, frequencies[s]);
+    start += frequencies[s];
+  }
+  return table;
+}
+
+/// Writes words from the end of a buffer towards its front.
+class BackwardWords {
+ public:
+  explicit BackwardWords(std::size_t words) : bytes_(2 * words + 2), at_(bytes_.size()) {}
+
+  void encode(std::uint32_t& state, const EncodingSymbol& symbol) {
+    const std::uint32_t x = state;
+    const bool full = x >= symbol.limit;
+    bytes_[at_ - 1] = static_cast<std::uint8_t>(x >> 8);
+    bytes_[at_ - 2] = static_cast<std::uint8_t>(x);
+    at_ -= full ? 2 : 0;
+    const std::uint32_t y = full ? x >> 16 : x;
+    const auto quotient =
+        static_cast<std::uint32_t>((std::uint64_t{y} * symbol.reciprocal) >> 32) >> symbol.shift;
+    state = y + symbol.bias + quotient * symbol.complement;
+  }
+  const std::uint8_t* begin() const { return bytes_.data() + at_; }
+  const std::uint8_t* end() const { return bytes_.data() + bytes_.size(); }
+
+ private:
+  Bytes bytes_;
+  std::size_t at_;
+};
+
+}  // namespace
+
+std::uint8_t* RansWriter::run(unsigned table, std::size_t count) {
+  runs_.push_back(table + (static_cast<std::uint32_t>(count) << 8));
+  const std::size_t at = symbols_.size();
+  symbols_.resize(at + count);
+  return symbols_.data() + at;
+}
+
+std::vector<SymbolCounts> RansWriter::counts(unsigned tables) const {
+  std::vector<SymbolCounts> counts(tables);
+  const std::uint8_t* symbol = symbols_.data();
+  for (const std::uint32_t run : runs_) {
+    SymbolCounts& of = counts[run & 0xFF];
+    for (std::uint32_t left = run >> 8; left > 0; --left) ++of[*symbol++];
+  }
+  return counts;
+}
+
+Bytes RansWriter::finish(const std::vector<FrequencyTable>& tables, unsigned lanes) const {
+  std::vector<EncodingTable> encoding;
+  encoding.reserve(tables.size());
+  for (const FrequencyTable& t : tables) encoding.push_back(encodingTable(t));
+  std::array<std::uint32_t, kMaxLanes> states{};
+  states.fill(kRansLow);
+  BackwardWords words(symbols_.size());
+  const std::uint8_t* symbol = symbols_.data() + symbols_.size();
+  for (std::size_t r = runs_.size(); r-- > 0;) {
+    const EncodingTable& table = encoding[runs_[r] & 0xFF];
+    std::uint32_t i = runs_[r] >> 8;
+    if (lanes == kMaxLanes) {
+      while (i % kMaxLanes != 0) words.encode(states[--i % kMaxLanes], table[*--symbol]);
+      for (; i > 0; i -= kMaxLanes) {
+        for (unsigned lane = kMaxLanes; lane-- > 0;) words.encode(states[lane], table[*--symbol]);
+      }
+    } else {
+      while (i > 0) words.encode(states[--i % lanes], table[*--symbol]);
+    }
+  }
+  Bytes out;
+  out.reserve(4 * lanes + static_cast<std::size_t>(words.end() - words.begin()));
+  for (unsigned lane = 0; lane < lanes; ++lane) {
+    for (unsigned shift = 0; shift < 32; shift += 8) {
+      out.push_back(static_cast<std::uint8_t>(states[lane] >> shift));
+    }
+  }
+  out.insert(out.end(), words.begin(), words.end());
+  return out;
+}
+
+DecodingTable::DecodingTable(const FrequencyTable& frequencies) {
+  std::size_t at = 0;
+  for (std::uint32_t s = 0; s < kSymbols; ++s) {
+    for (std::uint32_t place = 0; place < frequencies[s]; ++place) {
+      entries_[at++] = s | (frequencies[s] << 8) | (place << 20);
+    }
+  }
+}
+
+RansReader::RansReader(const std::uint8_t* data, std::size_t size, unsigned lanes)
+    : lanes_(lanes), at_(data + std::size_t{4} * lanes), end_(data + size) {
+  if (size < std::size_t{4} * lanes) fail();
+  for (unsigned lane = 0; lane < lanes; ++lane) {
+    states_[lane] = loadLittle32(data + std::size_t{4} * lane);
+    if (states_[lane] < kRansLow || states_[lane] >= (kRansLow << 16)) {
+      throw Error(ErrorCode::Corrupt, "an entropy coded stream starts with an impossible state");
+    }
+  }
+}
+
+unsigned RansReader::fullRun(const DecodingTable& table, std::size_t count, std::uint8_t* symbols) {
+  // Copies of the states may live in registers.
+  std::array<std::uint32_t, kMaxLanes> states = states_;
+  const std::uint8_t* at = at_;
+  for (std::size_t i = 0; i < count; i += kMaxLanes) {
+    for (unsigned lane = 0; lane < kMaxLanes; ++lane) {
+      symbols[i + lane] = static_cast<std::uint8_t>(step(table, states[lane], at));
+    }
+  }
+  states_ = states;
+  at_ = at;
+  std::uint8_t greatest = 0;
+  for (std::size_t i = 0; i < count; ++i) greatest = std::max(greatest, symbols[i]);
+  return greatest;
+}
+
+unsigned RansReader::shortRun(const DecodingTable& table, std::size_t count,
+                              std::uint8_t* symbols) {
+  std::uint8_t greatest = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    symbols[i] = static_cast<std::uint8_t>(step(table, states_[i % lanes_], at_));
+    greatest = std::max(greatest, symbols[i]);
+  }
+  return greatest;
+}
+
+void RansReader::fail() {
+  throw Error(ErrorCode::Corrupt,
+              "an entropy coded stream ends before its last symbol: the file is damaged");
+}
+
+void RansReader::expectEnd() const {
+  bool asAtStart = at_ == end_;
+  for (unsigned lane = 0; lane < lanes_; ++lane) asAtStart &= states_[lane] == kRansLow;
+  if (!asAtStart) {
+    throw Error(ErrorCode::Corrupt,
+                "an entropy coded stream does not end with its last symbol: the file is damaged");
+  }
+}
+
+}  // namespace bspc::geometry::fast

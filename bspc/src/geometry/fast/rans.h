@@ -1,0 +1,105 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "bspc/span.h"
+#include "geometry/fast/frequency_table.h"
+#include "geometry/fast/little_endian.h"
+
+namespace bspc::geometry::fast {
+
+// Range asymmetric numeral systems (Duda 2013) with static tables: a state of 31 bits, words of 16
+// bits, several interleaved states ("lanes") for speed. The encoder runs backwards, so symbols are
+// gathered first.
+
+constexpr unsigned kMaxLanes = 8;
+constexpr std::uint32_t kRansLow = 1U << 15;  ///< states lie in kRansLow … 2^16 kRansLow − 1
+
+/// Lanes of a stream of `symbols` symbols: a lane costs two bytes.
+constexpr unsigned ransLanes(std::uint64_t symbols) { return symbols < 4096 ? 1 : kMaxLanes; }
+
+/// Symbols to be coded, in runs that share a table. The lane of a symbol is its place in the run
+/// modulo the number of lanes.
+class RansWriter {
+ public:
+  explicit RansWriter(std::size_t expected = 0) { symbols_.reserve(expected); }
+
+  /// Appends a run of `count` < 2^24 symbols, to be filled in.
+  std::uint8_t* run(unsigned table, std::size_t count);
+  void symbol(unsigned table, unsigned symbol) {
+    *run(table, 1) = static_cast<std::uint8_t>(symbol);
+  }
+  bool empty() const { return symbols_.empty(); }
+
+  /// counts[t]: the symbols of table t.
+  std::vector<SymbolCounts> counts(unsigned tables) const;
+  Bytes finish(const std::vector<FrequencyTable>& tables, unsigned lanes) const;
+
+ private:
+  std::vector<std::uint8_t> symbols_;
+  std::vector<std::uint32_t> runs_;  ///< table + 256 · count
+};
+
+/// For each value of a state's low bits: symbol, frequency and place inside the symbol's part.
+class DecodingTable {
+ public:
+  DecodingTable() = default;
+  explicit DecodingTable(const FrequencyTable& frequencies);
+  std::uint32_t entry(std::uint32_t state) const { return entries_[state & (kFrequencyTotal - 1)]; }
+
+  static std::uint32_t symbolOf(std::uint32_t entry) { return entry & 0xFF; }
+  static std::uint32_t frequencyOf(std::uint32_t entry) { return (entry >> 8) & 0xFFF; }
+  static std::uint32_t placeOf(std::uint32_t entry) { return entry >> 20; }
+
+ private:
+  std::array<std::uint32_t, kFrequencyTotal> entries_{};
+};
+
+/// Decodes what RansWriter coded. kSectionPadding bytes behind the section must be readable.
+class RansReader {
+ public:
+  RansReader() = default;
+  RansReader(const std::uint8_t* data, std::size_t size, unsigned lanes);
+
+  /// Decodes a run of count ≤ 64 symbols; returns the greatest. Throws Error(Corrupt) past the end.
+  unsigned run(const DecodingTable& table, std::size_t count, std::uint8_t* symbols) {
+    const unsigned greatest = lanes_ == kMaxLanes && count % kMaxLanes == 0
+                                  ? fullRun(table, count, symbols)
+                                  : shortRun(table, count, symbols);
+    if (at_ > end_) fail();
+    return greatest;
+  }
+  unsigned symbol(const DecodingTable& table) {
+    const unsigned symbol = step(table, states_[0], at_);
+    if (at_ > end_) fail();
+    return symbol;
+  }
+
+  /// Throws Error(Corrupt) unless the stream was used up and the states are those of its start.
+  void expectEnd() const;
+
+ private:
+  static unsigned step(const DecodingTable& table, std::uint32_t& state, const std::uint8_t*& at) {
+    const std::uint32_t entry = table.entry(state);
+    const std::uint32_t next = DecodingTable::frequencyOf(entry) * (state >> kFrequencyBits) +
+                               DecodingTable::placeOf(entry);
+    const std::uint32_t refilled = (next << 16) | loadLittle16(at);
+    const bool refill = next < kRansLow;
+    state = refill ? refilled : next;
+    at += refill ? 2 : 0;
+    return DecodingTable::symbolOf(entry);
+  }
+  unsigned fullRun(const DecodingTable& table, std::size_t count, std::uint8_t* symbols);
+  unsigned shortRun(const DecodingTable& table, std::size_t count, std::uint8_t* symbols);
+  [[noreturn]] static void fail();
+
+  std::array<std::uint32_t, kMaxLanes> states_{};
+  unsigned lanes_ = 1;
+  const std::uint8_t* at_ = nullptr;
+  const std::uint8_t* end_ = nullptr;
+};
+
+}  // namespace bspc::geometry::fast

@@ -1,0 +1,194 @@
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+#include "container/byte_writer.h"
+#include "entropy/symbol_coder.h"
+#include "geometry/fast/chunk_coder.h"
+#include "geometry/fast/slab_body.h"
+#include "geometry/fast/slab_sorter.h"
+#include "geometry/fast/slab_tree.h"
+#include "geometry/fast/uv_tree.h"
+
+namespace bspc::geometry::fast {
+
+namespace {
+
+/// Estimates look at every so many-th chunk of a large slab.
+constexpr std::size_t kEstimateStep = 4;
+constexpr float kSlabBits = 24;
+
+SurfaceHistory startOf(const SlabFrame& frame) {
+  const auto middle = [&frame](unsigned k) { return (std::uint32_t{1} << frame.levels[k]) / 2; };
+  return SurfaceHistory(middle(0), middle(1), middle(2));
+}
+
+/// The chunk of a slab that begins at point `first`.
+void loadChunk(const SortedSlab& slab, std::size_t first, Chunk& chunk) {
+  chunk.count = std::min(kChunkPoints, slab.size() - first);
+  std::uint64_t before = first > 0 ? slab.codes[first - 1] : 0;
+  for (std::size_t i = 0; i < chunk.count; ++i) {
+    chunk.gaps[i] = slab.codes[first + i] - before;
+    before = slab.codes[first + i];
+  }
+  std::copy_n(&slab.u[first], chunk.count, chunk.u.begin());
+  std::copy_n(&slab.v[first], chunk.count, chunk.v.begin());
+  std::copy_n(&slab.w[first], chunk.count, chunk.w.begin());
+  if (!slab.cutOff.empty()) std::copy_n(&slab.cutOff[first], chunk.count, chunk.cutOff.begin());
+}
+
+void remember(const Chunk& chunk, SurfaceHistory& history) {
+  if (chunk.surface.mode == SurfaceMode::Delta) {
+    const std::size_t last = chunk.count - 1;
+    history.passThrough(chunk.u[last], chunk.v[last], chunk.w[last]);
+  } else {
+    history.remember(chunk.footprint, chunk.surface);
+  }
+}
+
+/// The encoder's side of codeSlabTree(), once the slabs themselves are coded.
+class PlannedSlabs {
+ public:
+  using Node = std::int32_t;
+  explicit PlannedSlabs(const std::vector<PlanNode>& nodes) : nodes_(nodes) {}
+
+  bool isSlab(Node n) const { return nodes_[n].slab; }
+  unsigned heightAxis(Node n) const { return nodes_[n].heightAxis; }
+  std::uint64_t countLower(Node n) const {
+    const Node lower = nodes_[n].child[0];
+    return lower < 0 ? 0 : nodes_[lower].last - nodes_[lower].first;
+  }
+  Node child(Node n, unsigned half) const { return nodes_[n].child[half]; }
+  void slab(Node n, const Cell& /*cell*/, std::uint64_t /*points*/, unsigned /*axis*/) {
+    order_.push_back(n);
+  }
+  const std::vector<Node>& order() const { return order_; }
+
+ private:
+  const std::vector<PlanNode>& nodes_;
+  std::vector<Node> order_;
+};
+
+class SlabWriter {
+ public:
+  SlabWriter(const TileFrame& frame, const SlabOptions& options, std::size_t points)
+      : frame_(frame), options_(options), chunks_(out_) {
+    order_.reserve(points);
+    if (options.uvTree) {
+      uvTree_ = std::make_unique<Tree>(uvCoder_, out_.raw, options.extraLevels);
+    }
+  }
+
+  CodedSet write(std::vector<TilePoint> points) {
+    SlabPlanner planner(frame_.scale, options_.plan,
+                        [this](const Cell& cell, const TilePoint* p, std::uint32_t n,
+                               unsigned axis) { return estimate(cell, p, n, axis); });
+    planner.plan(points, rootCell(frame_.extent));
+    BitWriter tree;
+    PlannedSlabs slabs(planner.nodes());
+    codeSlabTree(tree, slabs, 0, rootCell(frame_.extent), points.size(), frame_.scale);
+    for (const std::int32_t id : slabs.order()) {
+      const PlanNode& node = planner.nodes()[id];
+      writeSlab(node.cell, points.data() + node.first, node.last - node.first, node.heightAxis);
+    }
+    return {assemble(tree.finish(), points.size()), std::move(order_)};
+  }
+
+ private:
+  using Tree = UvTree<entropy::SymbolWriter, BitWriter>;
+
+  float estimate(const Cell& cell, const TilePoint* points, std::uint32_t count,
+                 unsigned heightAxis) {
+    sorter_.sort(cell, frame_.scale, points, count, heightAxis, slab_);
+    SurfaceHistory history = startOf(slab_.frame);
+    const std::size_t step = kChunkPoints * (count > 3 * kChunkPoints ? kEstimateStep : 1);
+    float bits = 0;
+    std::size_t seen = 0;
+    std::uint32_t lastHeight = (std::uint32_t{1} << slab_.frame.levels[2]) / 2;
+    for (std::size_t first = 0; first < count; first += step) {
+      if (first > 0) lastHeight = slab_.w[first - 1];
+      loadChunk(slab_, first, chunk_);
+      bits += chooseGapClass(chunk_) + fitSurface(chunk_, history, lastHeight, options_.fit);
+      seen += chunk_.count;
+      remember(chunk_, history);
+    }
+    return bits * static_cast<float>(count) / static_cast<float>(seen) + kSlabBits;
+  }
+
+  void writeSlab(const Cell& cell, const TilePoint* points, std::uint32_t count,
+                 unsigned heightAxis) {
+    sorter_.sort(cell, frame_.scale, points, count, heightAxis, slab_);
+    order_.insert(order_.end(), slab_.index.begin(), slab_.index.end());
+    const SlabFrame& frame = slab_.frame;
+    if (options_.uvTree && frame.levels[0] + frame.levels[1] > 0) {
+      plane_.resize(count);
+      for (std::uint32_t i = 0; i < count; ++i) plane_[i] = {{slab_.u[i], slab_.v[i]}};
+      uvTree_->code(frame, frame_.scale, plane_);
+    }
+    SurfaceHistory history = startOf(frame);
+    std::uint32_t lastHeight = (std::uint32_t{1} << frame.levels[2]) / 2;
+    for (std::size_t first = 0; first < count; first += kChunkPoints) {
+      loadChunk(slab_, first, chunk_);
+      if (!options_.uvTree) {
+        chooseGapClass(chunk_);
+        chunks_.codeGaps(chunk_);
+      }
+      fitSurface(chunk_, history, lastHeight, options_.fit);
+      setResiduals(chunk_, lastHeight);
+      chunks_.codeHeights(chunk_, history);
+      chunks_.codeCutOff(chunk_, frame.cutBits());
+      lastHeight = chunk_.w[chunk_.count - 1];
+      remember(chunk_, history);
+    }
+  }
+
+  Bytes assemble(const Bytes& tree, std::size_t points) {
+    const unsigned lanes = ransLanes(points);
+    const auto code = [](const RansWriter& stream, BitWriter& head,
+                         std::vector<FrequencyTable> defaults, unsigned streamLanes) {
+      const auto counts = stream.counts(static_cast<unsigned>(defaults.size()));
+      return stream.finish(writeTables(head, counts, std::move(defaults)), streamLanes);
+    };
+    BitWriter tables;
+    Bytes gaps = options_.uvTree
+                     ? uvCoder_.finish()
+                     : code(out_.gaps, tables, defaultTables(kGapClasses, kGapCode), lanes);
+    const Bytes residuals =
+        code(out_.residuals, tables, defaultTables(kResidualClasses, kResidualCode), lanes);
+    const Bytes fields = code(out_.fields, tables, defaultFieldTables(kFields), 1);
+    const Bytes head = tables.finish();
+    container::ByteWriter body;
+    for (const Bytes* section :
+         {&head, &tree, static_cast<const Bytes*>(&gaps), &residuals, &fields}) {
+      body.varint(section->size());
+    }
+    for (const Bytes* section :
+         {&head, &tree, static_cast<const Bytes*>(&gaps), &residuals, &fields}) {
+      body.bytes(*section);
+    }
+    body.bytes(out_.raw.finish());
+    return body.take();
+  }
+
+  const TileFrame& frame_;
+  SlabOptions options_;
+  ChunkWriter out_;
+  ChunkCoder<ChunkWriter> chunks_;
+  entropy::SymbolWriter uvCoder_;
+  std::unique_ptr<Tree> uvTree_;
+  SlabSorter sorter_;
+  SortedSlab slab_;
+  Chunk chunk_{};
+  std::vector<PlanePoint> plane_;
+  std::vector<std::uint32_t> order_;
+};
+
+}  // namespace
+
+CodedSet writeSlabs(const TileFrame& frame, std::vector<TilePoint> points,
+                    const SlabOptions& options) {
+  const auto writer = std::make_unique<SlabWriter>(frame, options, points.size());
+  return writer->write(std::move(points));
+}
+
+}  // namespace bspc::geometry::fast

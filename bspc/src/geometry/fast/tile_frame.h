@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+
+#include "bspc/error.h"
+#include "geometry/fast/axis_remap.h"
+#include "geometry/fast/cell.h"
+#include "geometry/output_budget.h"
+
+namespace bspc::geometry::fast {
+
+/// What the layers of a tile have in common: the box of ranks that their coders work in, and the
+/// way back to coordinates.
+struct TileFrame {
+  GridPoint extent{};  ///< greatest rank along each axis (of axes without ranks: coordinate)
+  StepScale scale{};
+  AxisValues values;  ///< coordinate of each rank; empty: the rank itself
+
+  bool hasRanks() const { return !(values[0].empty() && values[1].empty() && values[2].empty()); }
+};
+
+/// Takes decoded points in ranks and appends them to the output as coordinates.
+class PointCollector {
+ public:
+  PointCollector(const TileFrame& frame, const OutputBudget& budget, const PointProgress& progress,
+                 DecodedTile& out)
+      : frame_(frame), budget_(budget), progress_(progress), out_(out) {}
+
+  /// Throws Error(Corrupt) if a point lies outside of the tile.
+  void append(const GridPoint* points, std::size_t count) {
+    if (count == 0) return;
+    std::uint32_t outside = 0;
+    for (unsigned k = 0; k < 3; ++k) {
+      for (std::size_t i = 0; i < count; ++i) outside |= points[i][k] > frame_.extent[k] ? 1 : 0;
+    }
+    if (outside != 0) {
+      throw Error(ErrorCode::Corrupt, "a point lies outside of its tile: the file is damaged");
+    }
+    const std::size_t first = out_.points.size();
+    budget_.beforeAppend(out_, count);
+    out_.points.insert(out_.points.end(), points, points + count);
+    for (unsigned k = 0; k < 3; ++k) {
+      const std::vector<std::uint32_t>& values = frame_.values[k];
+      if (values.empty()) continue;
+      for (std::size_t i = 0; i < count; ++i) {
+        std::uint32_t& c = out_.points[first + i][k];
+        c = values[c];
+      }
+    }
+    if (progress_ && first / kProgressStep != out_.points.size() / kProgressStep) {
+      progress_(out_.points.size());
+    }
+  }
+
+  const TileFrame& frame() const { return frame_; }
+  const OutputBudget& budget() const { return budget_; }
+
+ private:
+  static constexpr std::size_t kProgressStep = std::size_t{1} << 16;
+
+  const TileFrame& frame_;
+  const OutputBudget& budget_;
+  const PointProgress& progress_;
+  DecodedTile& out_;
+};
+
+}  // namespace bspc::geometry::fast

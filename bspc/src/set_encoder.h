@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bspc/encoder.h"
+#include "coding_plan.h"
+#include "container/container_writer.h"
+#include "shared_progress.h"
+#include "tile_encoder.h"
+#include "tiling/tile_cut.h"
+
+namespace bspc {
+
+/// Cuts grid points into tiles, codes them on several threads and hands them to a container.
+class SetEncoder {
+ public:
+  /// All must outlive this; `report` gets tiles, geometryBytes and, if wished, the order.
+  SetEncoder(const CodingPlan& plan, const EncodeOptions& options, SharedProgress& progress,
+             container::ContainerWriter& writer, EncodeReport& report)
+      : encoder_(*plan.method, plan.layers, plan.wishes),
+        tilePoints_(static_cast<std::size_t>(plan.tilePoints)),
+        options_(options),
+        progress_(progress),
+        writer_(writer),
+        report_(report) {}
+
+  /// The caller's input, which must outlive this: what a lossy coding moves is measured against it.
+  void measureAgainst(const PointSetView& original) { original_ = &original; }
+
+  /// May be called for one part of a set after the other. `sourceIndex`: of each point in the
+  /// caller's input, empty if that is its own.
+  void encode(Span<const GridPoint> points, const std::vector<std::uint64_t>& sourceIndex);
+
+ private:
+  void encodePart(std::size_t offset, Span<const GridPoint> points,
+                  const std::vector<std::uint64_t>& sourceIndex);
+
+  TileEncoder encoder_;
+  const PointSetView* original_ = nullptr;
+  std::size_t tilePoints_;
+  const EncodeOptions& options_;
+  SharedProgress& progress_;
+  container::ContainerWriter& writer_;
+  EncodeReport& report_;
+};
+
+}  // namespace bspc

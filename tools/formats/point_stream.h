@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "formats/model.h"
+
+namespace bspc::formats {
+
+/// The points of a model file, read in pieces of the caller's size, so that a model may be larger
+/// than memory. A stream holds a block of the file, whatever the file's size, unless its reader
+/// says otherwise.
+class PointStream {
+ public:
+  PointStream() = default;
+  virtual ~PointStream() = default;
+  PointStream(const PointStream&) = delete;
+  PointStream& operator=(const PointStream&) = delete;
+
+  /// Writes the next `count` points to `positions`: three numbers of info().type each, packed, in
+  /// the byte order of this machine. Returns how many there were; fewer than `count` (0 from then
+  /// on) only at the end, when the whole file has been read and checked. Throws FormatError, or
+  /// Error(Cancelled) once the progress callback asks to stop; the stream is then spent.
+  virtual std::size_t read(std::uint8_t* positions, std::size_t count) = 0;
+
+  /// The type and what a header tells are known from the start; otherContent is complete only once
+  /// read() has returned fewer points than it was asked for.
+  const ModelInfo& info() const { return info_; }
+
+  /// For how many points there may be memory set aside: as many as the header claims, but never
+  /// more than the file has bytes for; 0 if nothing is known.
+  std::size_t reservable() const { return reservable_; }
+
+ protected:
+  ModelInfo info_;
+  std::size_t reservable_ = 0;
+};
+
+}  // namespace bspc::formats
