@@ -47,6 +47,12 @@ settings=(
   "--bits 20 --layers 6"
   "--precision 0.05"
   "--layout streaming --layers 3"
+  "--method bsp --bits 12"
+  "--method bsp --bits 20 --layers 5"
+  "--method bsp --bits 16 --stop-points 3"
+  "--method kd --bits 12 --stop-level 20"
+  "--method octree --bits 16 --layers 3"
+  "--method gencode --bits 16 --layers 3"
 )
 
 work=$root/work

@@ -10,6 +10,7 @@
 #include "cli/input_file.h"
 #include "cli/model_files.h"
 #include "cli/naming.h"
+#include "cli/nearest_distance.h"
 #include "cli/progress_bar.h"
 #include "cli/text.h"
 
@@ -22,17 +23,45 @@ struct VerifyArguments {
   std::string against;
   std::string from;
   bool dropNonFinite = false;
+  bool lossy = false;
   unsigned threads = 0;
   bool quiet = false;
 };
 
+formats::Model readOriginal(const VerifyArguments& args) {
+  ProgressBar bar("reading", args.quiet);
+  return readModelFile(args.against, args.from, true, bar.callback());
+}
+
+/// A lossy file holds as many points as the original, but not the same.
+std::string distanceText(const VerifyArguments& args, const Grid& grid,
+                         const std::vector<GridPoint>& points) {
+  const formats::Model original = readOriginal(args);
+  const PointSetView view = original.view();
+  std::vector<std::array<double, 3>> given;
+  for (std::uint64_t i = 0; i < view.size(); ++i) {
+    const std::array<double, 3> p = view.position(i);
+    const bool finite = std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
+    if (finite || !args.dropNonFinite) given.push_back(p);
+  }
+  if (given.size() != points.size()) {
+    throw Error(ErrorCode::Corrupt, args.input + ": holds " + withCommas(points.size()) +
+                                        " points, and " + args.against + " has " +
+                                        withCommas(given.size()));
+  }
+  if (given.empty()) return ", as many as in " + args.against;
+  std::vector<std::array<double, 3>> restored;
+  for (const GridPoint& p : points) {
+    restored.push_back({restoredCoordinate(grid, 0, p[0]), restoredCoordinate(grid, 1, p[1]),
+                        restoredCoordinate(grid, 2, p[2])});
+  }
+  return ", as many as in " + args.against + "; no point of it is farther than " +
+         shortest(greatestDistanceToNearest(given, std::move(restored))) + " from one of these";
+}
+
 /// Puts the original on the file's grid and compares the multisets of grid points.
 GridFit compare(const VerifyArguments& args, const FileInfo& info, std::vector<GridPoint> points) {
-  formats::Model original;
-  {
-    ProgressBar bar("reading", args.quiet);
-    original = readModelFile(args.against, args.from, true, bar.callback());
-  }
+  const formats::Model original = readOriginal(args);
   GridRequest request = GridRequest::onGrid(info.grid);
   request.dropNonFinite = args.dropNonFinite;
   GridFit fit = naming(args.against, [&] { return fitGrid(original.view(), request); });
@@ -59,7 +88,8 @@ GridFit compare(const VerifyArguments& args, const FileInfo& info, std::vector<G
                 args.input + ": does not hold the points of " + args.against + ": " +
                     withCommas(points.size()) + " points against " + withCommas(fit.points.size()) +
                     ", " + withCommas(std::max<std::uint64_t>(outside, missing.size())) +
-                    " of the original's are not there");
+                    " of the original's are not there; --lossy tells how far the points of a file "
+                    "that was coded with lossy stops are");
   }
   return fit;
 }
@@ -76,7 +106,9 @@ void runVerify(const VerifyArguments& args) {
     decoded = naming(input.name(), [&] { return decoder.decode(options); });
   }
   std::string result = "every checksum holds, " + withCommas(decoded.points.size()) + " points";
-  if (!args.against.empty()) {
+  if (args.lossy) {
+    result += distanceText(args, decoder.info().grid, decoded.points);
+  } else if (!args.against.empty()) {
     const GridFit fit = compare(args, decoder.info(), std::move(decoded.points));
     result += ", those of " + args.against + ", " + errorText(fit.exact, fit.maxError);
   }
@@ -90,9 +122,16 @@ void addVerifyCommand(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("verify", "Decode a .bspc file and check every byte and point of it");
   command->add_option("file", args->input, "The .bspc file; - reads a pipe")->required();
-  command->add_option("--against", args->against, "The model it was made from, to compare with");
+  CLI::Option* against = command->add_option("--against", args->against,
+                                             "The model it was made from, to compare with");
   command->add_option("--from", args->from, "Format of that model where its name does not tell")
       ->type_name("ply|obj|off|xyz|csv|las|pcd");
+  command
+      ->add_flag("--lossy", args->lossy,
+                 "The file was coded with --stop-points or --stop-level:\n"
+                 "count the points and say how far they are, instead of\n"
+                 "asking for the same ones")
+      ->needs(against);
   command->add_flag("--drop-nonfinite", args->dropNonFinite,
                     "Leave out the model's points with NaN or infinite coordinates");
   command->add_option("--threads", args->threads, "Threads (default: as many as the machine has)")

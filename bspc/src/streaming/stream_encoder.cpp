@@ -117,14 +117,12 @@ class LargeSetEncoder {
                       std::to_string(options_.memoryBytes) +
                       " bytes, and there is no scratch storage; raise the limit");
     }
-    lattice::validate(options_.encoding.grid);
     if (options_.encoding.stopPoints > 0 || options_.encoding.stopLevel) {
       throw Error(ErrorCode::InvalidArgument,
-                  "the points do not fit into the memory limit of " +
-                      std::to_string(options_.memoryBytes) +
-                      " bytes, and lossy stops, whose error is reported, need them all; raise the "
-                      "limit");
+                  "a lossy coding needs all points in memory to tell its error; raise the memory "
+                  "limit");
     }
+    lattice::validate(options_.encoding.grid);
     store(std::move(first), reader);
     report_.points = set_->size();
     report_.dropped = set_->dropped();
