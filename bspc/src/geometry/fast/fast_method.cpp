@@ -61,7 +61,8 @@ EncodedTile encodeAlongHilbert(const TileInput& tile, const RankedPoints& ranked
     if (layer == 0) writeHeader(payload, ranked.header, tile.layers);
     std::vector<TilePoint> points;
     points.reserve(strides.inLayer(layer));
-    for (std::size_t place = 0; place < sequence.size(); ++place) {
+    for (std::uint64_t stop = 0; stop < strides.upTo(layer); ++stop) {
+      const std::uint64_t place = stop << strides.strideBits(layer);
       if (!strides.isNew(place, layer)) continue;
       const std::uint32_t i = sequence[place];
       points.push_back(

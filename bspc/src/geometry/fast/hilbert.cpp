@@ -40,6 +40,25 @@ constexpr std::array<std::array<SpaceStep, 8>, 24> spaceSteps() {
   return steps;
 }
 
+/// Two levels in one step: indexed by two bits of x, then of y, then of z.
+using DoubleSteps = std::array<std::array<SpaceStep, 64>, 24>;
+
+DoubleSteps doubleSteps(const std::array<std::array<SpaceStep, 8>, 24>& steps) {
+  DoubleSteps twice{};
+  for (unsigned state = 0; state < 24; ++state) {
+    for (unsigned xyz = 0; xyz < 64; ++xyz) {
+      const unsigned x = xyz & 3;
+      const unsigned y = (xyz >> 2) & 3;
+      const unsigned z = xyz >> 4;
+      const SpaceStep first = steps[state][(x >> 1) | (y & 2) | ((z & 2) << 1)];
+      const SpaceStep second = steps[first.state][(x & 1) | ((y & 1) << 1) | ((z & 1) << 2)];
+      twice[state][xyz] = {static_cast<std::uint8_t>((first.digit << 3) | second.digit),
+                           second.state};
+    }
+  }
+  return twice;
+}
+
 }  // namespace
 
 const HilbertPlane& HilbertPlane::instance() {
@@ -70,16 +89,25 @@ HilbertPlane::HilbertPlane() {
 }
 
 std::uint64_t hilbertPlaceInSpace(const GridPoint& point, unsigned bits) {
-  static constexpr std::array<std::array<SpaceStep, 8>, 24> kSteps = spaceSteps();
-  const unsigned levels = bits < kSpaceLevels ? bits : kSpaceLevels;
+  static constexpr auto kSteps = spaceSteps();
+  static const DoubleSteps kDouble = doubleSteps(kSteps);
+  unsigned levels = bits < kSpaceLevels ? bits : kSpaceLevels;
+  unsigned shift = bits;
   std::uint64_t place = 0;
   unsigned state = 0;
-  for (unsigned level = 1; level <= levels; ++level) {
-    const unsigned shift = bits - level;
+  if (levels % 2 != 0) {
+    --shift;
     const unsigned octant = ((point[0] >> shift) & 1) | (((point[1] >> shift) & 1) << 1) |
                             (((point[2] >> shift) & 1) << 2);
-    const SpaceStep step = kSteps[state][octant];
-    place = (place << 3) | step.digit;
+    place = kSteps[state][octant].digit;
+    state = kSteps[state][octant].state;
+  }
+  for (levels /= 2; levels > 0; --levels) {
+    shift -= 2;
+    const unsigned octants = ((point[0] >> shift) & 3) | (((point[1] >> shift) & 3) << 2) |
+                             (((point[2] >> shift) & 3) << 4);
+    const SpaceStep step = kDouble[state][octants];
+    place = (place << 6) | step.digit;
     state = step.state;
   }
   return place;
