@@ -88,13 +88,20 @@ std::size_t totalBytes(const EncodedTile& coded) {
   return bytes;
 }
 
+/// Tiles of so few points take little time whatever is tried.
+constexpr std::size_t kFewPoints = 8192;
+
+/// Whether ways to code a tile are tried that take much longer than the usual one.
+bool isThorough(const RankedPoints& ranked, unsigned effort) {
+  return effort >= 3 || ranked.coordinates[0].size() <= kFewPoints;
+}
+
 /// Whether the order of the input is worth a try: it is slower to code.
 bool isInputOrderPromising(const RankedPoints& ranked, unsigned effort, const EncodedTile& other) {
-  constexpr std::size_t kFewPoints = 8192;
   constexpr double kAllowance = 1.1;  // the sample may be worse than the whole
+  if (!isThorough(ranked, effort)) return false;
   const std::size_t points = ranked.coordinates[0].size();
   if (points <= kFewPoints) return true;
-  if (effort < 3) return false;
   const double otherBits = 8.0 * static_cast<double>(totalBytes(other));
   return estimateInInputOrder(ranked) * static_cast<double>(points) < kAllowance * otherBits;
 }
@@ -144,7 +151,8 @@ EncodedTile FastMethod::encode(const TileInput& tile, const PointProgress& progr
   }
   fast::RankedPoints ranked = fast::rankPoints(tile);
   EncodedTile best = fast::encodeAlongHilbert(tile, ranked, progress);
-  if (tile.wishes.effort >= 3 && ranked.otherScale != ranked.header.frame.scale) {
+  if (fast::isThorough(ranked, tile.wishes.effort) &&
+      ranked.otherScale != ranked.header.frame.scale) {
     fast::RankedPoints rescaled = ranked;
     rescaled.header.frame.scale = ranked.otherScale;
     EncodedTile other = fast::encodeAlongHilbert(tile, rescaled, progress);
