@@ -88,7 +88,9 @@ CodedSet encodeSet(const TileFrame& frame, const std::vector<TilePoint>& points,
     consider(slabs(frame, points, other));
   }
   if (points.size() <= kFewPoints) {
-    if (effort >= 3) consider(slabs(frame, points, presetOf(2)));
+    for (const unsigned other : {2U, 3U}) {
+      if (effort != other) consider(slabs(frame, points, presetOf(other)));
+    }
     consider(counts(frame, points));
   }
   return best;
