@@ -29,12 +29,22 @@ inline float nearestFloat(double x) {
   return static_cast<float>(std::max(-kMax, std::min(kMax, x)));
 }
 
+/// The nearest integer, halves away from zero, as std::round() but without a call of the library.
+inline double roundHalfAway(double x) {
+  constexpr double kWhole = 4503599627370496.0;  // 2^52: doubles from there on are whole
+  if (!(std::fabs(x) < kWhole)) return x;
+  const auto whole = static_cast<double>(static_cast<std::int64_t>(x));
+  const double rest = x - whole;  // exact
+  if (rest >= 0.5) return whole + 1;
+  return rest <= -0.5 ? whole - 1 : whole;
+}
+
 /// `x` as the nearest number of `type`, and −0 as +0.
 inline double roundToScalar(ScalarType type, double x) {
   if (type == ScalarType::Float32) return double{nearestFloat(x)} + 0.0;
   if (type == ScalarType::Float64) return x + 0.0;
   const IntegerLimits limits = integerLimits(type);
-  return std::max(limits.min, std::min(limits.max, std::round(x))) + 0.0;
+  return std::max(limits.min, std::min(limits.max, roundHalfAway(x))) + 0.0;
 }
 
 /// The integer nearest to `x`, which must be within ±2^53.
@@ -52,7 +62,12 @@ class AxisMap {
         numerator_(static_cast<double>(grid.axes[axis].numerator)),
         denominator_(static_cast<double>(grid.axes[axis].denominator)),
         origin_(grid.axes[axis].origin),
-        step_(rational_ ? numerator_ / denominator_ : grid.axes[axis].step) {}
+        step_(rational_ ? numerator_ / denominator_ : grid.axes[axis].step),
+        isIdentity_(rational_ && !isFloatingPoint(type_) && grid.axes[axis].numerator == 1 &&
+                    grid.axes[axis].denominator == 1) {}
+
+  /// Whether coordinates are integers that are their own multiples.
+  bool isIdentity() const { return isIdentity_; }
 
   double coordinate(double multiple) const {
     return rational_ ? (multiple * numerator_) / denominator_ : origin_ + multiple * step_;
@@ -74,6 +89,7 @@ class AxisMap {
     double error;
   };
   Snapped snap(double value) const {
+    if (isIdentity_) return {value, 0};
     const double multiple = nearestInteger(quotient(value));
     const Snapped snapped{multiple, std::fabs(restored(multiple) - value)};
     // Rounding, of the quotient or to the scalar type, can favour a neighbour only near the
@@ -97,6 +113,7 @@ class AxisMap {
   double denominator_;
   double origin_;
   double step_;
+  bool isIdentity_;
 };
 
 }  // namespace bspc::lattice

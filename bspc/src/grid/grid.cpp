@@ -1,5 +1,6 @@
 #include "bspc/grid.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -87,7 +88,7 @@ T toScalar(double value) {
     if (value >= static_cast<double>(std::numeric_limits<T>::max())) {
       return std::numeric_limits<T>::max();
     }
-    return static_cast<T>(std::round(value));
+    return static_cast<T>(lattice::roundHalfAway(value));
   }
 }
 
@@ -184,16 +185,58 @@ double restoredCoordinate(const Grid& grid, int axis, std::uint32_t i) {
   return lattice::roundToScalar(grid.scalarType, grid.coordinate(axis, i));
 }
 
+namespace {
+
+/// Restores integers that are their own multiples: the bounds of both types, in integers.
+template <class T>
+void restoreIntegers(const Grid& grid, std::size_t axis, Span<const GridPoint> points, T* xyz) {
+  const std::int64_t base = grid.axes[axis].base;
+  const lattice::IntegerLimits limits = lattice::integerLimits(grid.scalarType);
+  const auto low =
+      std::max(static_cast<std::int64_t>(limits.min), std::int64_t{std::numeric_limits<T>::min()});
+  const auto high =
+      std::min(static_cast<std::int64_t>(limits.max), std::int64_t{std::numeric_limits<T>::max()});
+  for (std::size_t j = 0; j < points.size(); ++j) {
+    const std::int64_t value = base + std::int64_t{points[j][axis]};
+    xyz[3 * j + axis] = static_cast<T>(std::max(low, std::min(high, value)));
+  }
+}
+
+/// Whether restoreIntegers() gives what the formulas of the format give: 64-bit types have limits
+/// that are no doubles, and sums must stay exact.
+template <class T>
+bool suitsIntegers(const Grid& grid, const lattice::AxisMap& map, std::size_t axis) {
+  constexpr std::int64_t kExact = std::int64_t{1} << 52;
+  if (!std::is_integral_v<T> || sizeof(T) > 4 || scalarSize(grid.scalarType) > 4) return false;
+  const std::int64_t base = grid.axes[axis].base;
+  return map.isIdentity() && -kExact <= base && base <= kExact;
+}
+
+template <class T>
+void restoreAxis(const Grid& grid, std::size_t axis, Span<const GridPoint> points, T* xyz) {
+  const lattice::AxisMap map(grid, axis);
+  if constexpr (std::is_integral_v<T> && sizeof(T) <= 4) {
+    if (suitsIntegers<T>(grid, map, axis)) return restoreIntegers(grid, axis, points, xyz);
+  }
+  const std::int64_t base = grid.axes[axis].base;
+  for (std::size_t j = 0; j < points.size(); ++j) {
+    // Through the grid's own type first: every reader then returns the same coordinate, whatever
+    // type it asks for.
+    const auto multiple = static_cast<double>(base + std::int64_t{points[j][axis]});
+    xyz[3 * j + axis] = toScalar<T>(map.restored(multiple));
+  }
+}
+
+}  // namespace
+
 template <class T>
 void restorePositions(const Grid& grid, Span<const GridPoint> points, T* xyz) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const Grid::Axis& a = grid.axes[axis];
-    const lattice::AxisMap map(grid, axis);
-    for (std::size_t j = 0; j < points.size(); ++j) {
-      // Through the grid's own type first: every reader then returns the same coordinate, whatever
-      // type it asks for.
-      const auto multiple = static_cast<double>(a.base + std::int64_t{points[j][axis]});
-      xyz[3 * j + axis] = toScalar<T>(map.restored(multiple));
+  // A block stays in the cache while its three axes are restored.
+  constexpr std::size_t kBlock = 1024;
+  for (std::size_t first = 0; first < points.size(); first += kBlock) {
+    const std::size_t count = std::min(kBlock, points.size() - first);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      restoreAxis(grid, axis, points.subspan(first, count), xyz + 3 * first);
     }
   }
 }

@@ -172,12 +172,63 @@ std::uint32_t topIndex(const Grid& grid, std::size_t axis, const AxisRange& rang
   return static_cast<std::uint32_t>(top - static_cast<double>(grid.axes[axis].base));
 }
 
+namespace {
+
+/// Grid points of one chunk along one axis.
+class ChunkQuantiser {
+ public:
+  ChunkQuantiser(const PlacedGrid& placed, std::size_t axis, const AxisRange& range)
+      : map_(placed.grid, axis),
+        axis_(axis),
+        base_(static_cast<double>(placed.grid.axes[axis].base)),
+        top_(map_.snap(range.max).multiple),
+        // The search looks at axes on which points differ.
+        exact_(placed.exact && !range.constant()) {}
+
+  void run(const Coordinates::Chunk& values, std::size_t count, std::vector<GridPoint>& points) {
+    // Copies, so that the loops need no loads through this.
+    const AxisMap map = map_;
+    const double base = base_;
+    if (exact_) {
+      for (std::size_t i = 0; i < count; ++i) {
+        points[i][axis_] =
+            static_cast<std::uint32_t>(nearestInteger(map.quotient(values[i])) - base);
+      }
+      return;
+    }
+    for (std::size_t i = 0; i < count; ++i) points[i][axis_] = snapped(map, values[i]);
+  }
+  double maxError() const { return maxError_; }
+
+ private:
+  std::uint32_t snapped(const AxisMap& map, double value) {
+    AxisMap::Snapped snapped = map.snap(value);
+    // Ties may be broken differently for neighbours, but nothing may leave the index range.
+    if (snapped.multiple < base_ || snapped.multiple > top_) {
+      snapped.multiple = std::max(base_, std::min(top_, snapped.multiple));
+      snapped.error = std::fabs(map.restored(snapped.multiple) - value);
+    }
+    maxError_ = std::max(maxError_, snapped.error);
+    return static_cast<std::uint32_t>(snapped.multiple - base_);
+  }
+
+  AxisMap map_;
+  std::size_t axis_;
+  double base_;
+  double top_;
+  bool exact_;
+  double maxError_ = 0;
+};
+
+}  // namespace
+
 std::array<double, 3> quantise(const Coordinates& coordinates, const Ranges& ranges,
-                               const Grid& grid, const GridPointSink& sink,
+                               const PlacedGrid& placed, const GridPointSink& sink,
                                const ShareReport& report) {
   constexpr std::uint64_t kReportEvery = 128 * Coordinates::kChunk;
-  const std::array<AxisMap, 3> maps{AxisMap(grid, 0), AxisMap(grid, 1), AxisMap(grid, 2)};
-  std::array<double, 3> maxErrors{};
+  std::array<ChunkQuantiser, 3> axes{ChunkQuantiser(placed, 0, ranges[0]),
+                                     ChunkQuantiser(placed, 1, ranges[1]),
+                                     ChunkQuantiser(placed, 2, ranges[2])};
   Coordinates::Chunk chunk{};
   std::vector<GridPoint> points(Coordinates::kChunk);
   const auto total = static_cast<double>(coordinates.size());
@@ -185,57 +236,47 @@ std::array<double, 3> quantise(const Coordinates& coordinates, const Ranges& ran
     if (first % kReportEvery == 0) report(static_cast<double>(first) / total);
     const std::size_t count = coordinates.chunkSize(first);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const AxisMap map = maps[axis];
-      const auto base = static_cast<double>(grid.axes[axis].base);
-      // Ties may be broken differently for neighbours, but nothing may leave the index range.
-      const double top = map.snap(ranges[axis].max).multiple;
-      double maxError = maxErrors[axis];
       coordinates.gather(axis, first, count, chunk.data());
-      for (std::size_t i = 0; i < count; ++i) {
-        AxisMap::Snapped snapped = map.snap(chunk[i]);
-        if (snapped.multiple < base || snapped.multiple > top) {
-          snapped.multiple = std::max(base, std::min(top, snapped.multiple));
-          snapped.error = std::fabs(map.restored(snapped.multiple) - chunk[i]);
-        }
-        maxError = std::max(maxError, snapped.error);
-        points[i][axis] = static_cast<std::uint32_t>(snapped.multiple - base);
-      }
-      maxErrors[axis] = maxError;
+      axes[axis].run(chunk, count, points);
     }
     sink(first, Span<const GridPoint>(points.data(), count));
   }
-  return maxErrors;
+  return {axes[0].maxError(), axes[1].maxError(), axes[2].maxError()};
 }
 
 namespace {
 
-Grid automaticGrid(const Coordinates& coordinates, const Ranges& ranges,
-                   const GridRequest& request) {
+PlacedGrid automaticGrid(const Coordinates& coordinates, const Ranges& ranges,
+                         const GridRequest& request) {
   const auto known = request.knownLattice
                          ? confirmedLattice(*request.knownLattice, coordinates, ranges)
                          : std::nullopt;
   const auto lattice = detectLattice(coordinates, ranges);
-  if (known && (!lattice || isCoarser(*known, *lattice, ranges))) return *known;
-  if (lattice) return *lattice;
-  if (isFloatingPoint(coordinates.type())) return defaultGrid(coordinates.type(), ranges);
+  if (known && (!lattice || isCoarser(*known, *lattice, ranges))) return {*known, true};
+  if (lattice) return {*lattice, true};
+  if (isFloatingPoint(coordinates.type())) {
+    return {defaultGrid(coordinates.type(), ranges), false};
+  }
   Grid wholeNumbers;  // which placing the bases will refuse by the axis that is too large
   wholeNumbers.scalarType = coordinates.type();
-  return wholeNumbers;
+  return {wholeNumbers, false};
 }
 
-Grid chooseGrid(const Coordinates& coordinates, const Ranges& ranges, const GridRequest& request) {
+/// Bases are not placed yet.
+PlacedGrid chooseGrid(const Coordinates& coordinates, const Ranges& ranges,
+                      const GridRequest& request) {
   const ScalarType type = coordinates.type();
   const bool point = ranges[0].constant() && ranges[1].constant() && ranges[2].constant();
   switch (request.kind) {
     case GridRequest::Kind::Bits:
-      if (!point) return gridWithBits(type, ranges, request.bits);
+      if (!point) return {gridWithBits(type, ranges, request.bits), false};
       break;
     case GridRequest::Kind::Precision:
-      return gridWithPrecision(type, ranges, request.precision);
+      return {gridWithPrecision(type, ranges, request.precision), false};
     case GridRequest::Kind::Reuse: {
       Grid grid = request.reuse;
       grid.scalarType = type;
-      return grid;
+      return {grid, false};
     }
     case GridRequest::Kind::Automatic:
       break;
@@ -244,14 +285,14 @@ Grid chooseGrid(const Coordinates& coordinates, const Ranges& ranges, const Grid
 }
 
 /// Puts the points on fit.grid.
-void quantiseInto(GridFit& fit, const Coordinates& coordinates, const Ranges& ranges,
+void quantiseInto(GridFit& fit, bool exact, const Coordinates& coordinates, const Ranges& ranges,
                   Progress& progress) {
   fit.points.resize(static_cast<std::size_t>(coordinates.size()));
   const auto sink = [&fit](std::uint64_t first, Span<const GridPoint> points) {
     std::copy(points.begin(), points.end(),
               fit.points.begin() + static_cast<std::ptrdiff_t>(first));
   };
-  fit.maxError = quantise(coordinates, ranges, fit.grid, sink, [&progress](double share) {
+  fit.maxError = quantise(coordinates, ranges, {fit.grid, exact}, sink, [&progress](double share) {
     progress.report(kGridChosen + (1 - kGridChosen) * share);
   });
   fit.exact = fit.maxError[0] == 0 && fit.maxError[1] == 0 && fit.maxError[2] == 0;
@@ -259,10 +300,11 @@ void quantiseInto(GridFit& fit, const Coordinates& coordinates, const Ranges& ra
 
 }  // namespace
 
-Grid placedGrid(const Coordinates& coordinates, const Ranges& ranges, const GridRequest& request) {
-  Grid grid = chooseGrid(coordinates, ranges, request);
-  placeBases(grid, ranges);
-  return grid;
+PlacedGrid placedGrid(const Coordinates& coordinates, const Ranges& ranges,
+                      const GridRequest& request) {
+  PlacedGrid placed = chooseGrid(coordinates, ranges, request);
+  placeBases(placed.grid, ranges);
+  return placed;
 }
 
 void validate(const GridRequest& request) {
@@ -308,12 +350,13 @@ GridFit fitGrid(const PointSetView& points, const GridRequest& request,
   const lattice::ViewCoordinates coordinates(points, fit.sourceIndex);
   const lattice::Ranges ranges = lattice::rangesOf(coordinates);
   stages.report(lattice::kScanned);
-  fit.grid = lattice::placedGrid(coordinates, ranges, request);
-  lattice::quantiseInto(fit, coordinates, ranges, stages);
+  const lattice::PlacedGrid placed = lattice::placedGrid(coordinates, ranges, request);
+  fit.grid = placed.grid;
+  lattice::quantiseInto(fit, placed.exact, coordinates, ranges, stages);
   if (lattice::needsDoubles(fit.grid, fit.maxError, request)) {
     fit.grid.scalarType = ScalarType::Float64;
     lattice::placeBases(fit.grid, ranges);
-    lattice::quantiseInto(fit, coordinates, ranges, stages);
+    lattice::quantiseInto(fit, false, coordinates, ranges, stages);
   }
   stages.report(1);
   return fit;

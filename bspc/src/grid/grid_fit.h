@@ -41,8 +41,15 @@ void validate(const GridRequest& request);
 /// The grid of a set without points.
 Grid emptyGrid(ScalarType type, const GridRequest& request);
 
-/// The grid that a request means for these coordinates, bases placed.
-Grid placedGrid(const Coordinates& coordinates, const Ranges& ranges, const GridRequest& request);
+/// A grid whose bases are placed, and whether every coordinate is known to lie on it.
+struct PlacedGrid {
+  Grid grid;
+  bool exact = false;
+};
+
+/// The grid that a request means for these coordinates.
+PlacedGrid placedGrid(const Coordinates& coordinates, const Ranges& ranges,
+                      const GridRequest& request);
 
 /// Sets the bases to the least multiples of the data. Throws Error(OutOfGrid) naming the axis if
 /// the indices would not fit.
@@ -55,10 +62,9 @@ std::uint32_t topIndex(const Grid& grid, std::size_t axis, const AxisRange& rang
 using GridPointSink = std::function<void(std::uint64_t first, Span<const GridPoint> points)>;
 using ShareReport = std::function<void(double share)>;
 
-/// Hands every coordinate's grid point on; the grid's bases are placed. Returns the greatest error
-/// along each axis.
+/// Hands every coordinate's grid point on. Returns the greatest error along each axis.
 std::array<double, 3> quantise(const Coordinates& coordinates, const Ranges& ranges,
-                               const Grid& grid, const GridPointSink& sink,
+                               const PlacedGrid& placed, const GridPointSink& sink,
                                const ShareReport& report);
 
 /// Whether rounding to the scalar type breaks the promised half of the precision, which the

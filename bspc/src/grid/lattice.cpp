@@ -255,7 +255,13 @@ bool liesOn(const Coordinates& coordinates, std::size_t axis, const AxisMap& map
     if (!probe(value)) return false;
   }
   Checker check(map, divisor != nullptr);
-  if (!coordinates.all(axis, [&check](double value) { return check(value); })) return false;
+  // Integers need no check, only their divisor, which seldom takes many of them.
+  const bool whole = map.isIdentity();
+  if (!whole || divisor != nullptr) {
+    const bool all = coordinates.all(
+        axis, [&](double value) { return check(value) && !(whole && check.divisor() == 1); });
+    if (!all && !(whole && check.divisor() == 1)) return false;
+  }
   if (divisor != nullptr) *divisor = check.divisor();
   return true;
 }

@@ -164,28 +164,31 @@ class LargeSetEncoder {
     }
     const streaming::StoredCoordinates coordinates = set_->coordinates();
     const lattice::Ranges ranges = lattice::rangesOf(coordinates);
-    report_.grid = lattice::placedGrid(coordinates, ranges, options_.encoding.grid);
+    const lattice::PlacedGrid placed =
+        lattice::placedGrid(coordinates, ranges, options_.encoding.grid);
+    report_.grid = placed.grid;
     progress_.report(kGridKnown);
-    countParts(coordinates, ranges);
+    countParts(coordinates, ranges, placed.exact);
     if (lattice::needsDoubles(report_.grid, report_.maxError, options_.encoding.grid)) {
       report_.grid.scalarType = ScalarType::Float64;
       lattice::placeBases(report_.grid, ranges);
-      countParts(coordinates, ranges);
+      countParts(coordinates, ranges, false);
     }
     report_.exact = report_.maxError == std::array<double, 3>{};
     parts_->cut(options_.scratch(), memoryFor(options_) / 8);
     lattice::quantise(
-        coordinates, ranges, report_.grid,
+        coordinates, ranges, {report_.grid, placed.exact},
         [this](std::uint64_t, Span<const GridPoint> points) { parts_->store(points); },
         [this](double) { progress_.report(kGridKnown); });
     parts_->flush();
     progress_.report(kCut);
   }
 
-  void countParts(const lattice::Coordinates& coordinates, const lattice::Ranges& ranges) {
+  void countParts(const lattice::Coordinates& coordinates, const lattice::Ranges& ranges,
+                  bool exact) {
     parts_ = std::make_unique<streaming::PointParts>(gridBox(ranges), partPoints());
     report_.maxError = lattice::quantise(
-        coordinates, ranges, report_.grid,
+        coordinates, ranges, {report_.grid, exact},
         [this](std::uint64_t, Span<const GridPoint> points) { parts_->count(points); },
         [this](double) { progress_.report(kGridKnown); });
   }
