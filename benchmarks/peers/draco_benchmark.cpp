@@ -22,6 +22,7 @@
 #include <fstream>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -84,10 +85,24 @@ Bytes encodeWithBspc(const Coordinates& xyz, const EncodeOptions& options) {
 
 Coordinates decodeWithBspc(const Bytes& bytes) {
   Decoder decoder(std::make_shared<MemorySource>(bytes));
-  const DecodedPoints decoded = decoder.decode();
+  DecodeOptions options;
+  options.threads = 1;
+  const DecodedPoints decoded = decoder.decode(options);
   Coordinates xyz(3 * decoded.points.size());
   restorePositions(decoder.info().grid, Span<const GridPoint>(decoded.points), xyz.data());
   return xyz;
+}
+
+Coder bspcCoder(Method method, std::optional<unsigned> effort) {
+  EncodeOptions options;
+  options.layers = 1;
+  options.threads = 1;
+  options.method = method;
+  options.effort = effort;
+  const std::string suffix = effort ? " effort " + std::to_string(*effort) : "";
+  return {"bspc " + std::string(methodName(method)) + suffix,
+          [options](const Coordinates& xyz) { return encodeWithBspc(xyz, options); },
+          decodeWithBspc};
 }
 
 std::vector<Coder> allCoders() {
@@ -97,14 +112,8 @@ std::vector<Coder> allCoders() {
                       [speed](const Coordinates& xyz) { return encodeWithDraco(xyz, speed); },
                       decodeWithDraco});
   }
-  for (const Method method : availableMethods()) {
-    EncodeOptions options;
-    options.layers = 1;
-    options.method = method;
-    coders.push_back({std::string("bspc ") + methodName(method),
-                      [options](const Coordinates& xyz) { return encodeWithBspc(xyz, options); },
-                      decodeWithBspc});
-  }
+  coders.push_back(bspcCoder(Method::Kd, std::nullopt));
+  for (const unsigned effort : {1U, 2U, 3U, 4U}) coders.push_back(bspcCoder(Method::Fast, effort));
   return coders;
 }
 
@@ -165,7 +174,7 @@ void runOnce(const Coder& coder, const Coordinates& xyz, Measurement& result) {
 }
 
 void printHead() {
-  std::printf("%-24s %10s  %-16s %8s %12s %12s %12s\n", "file", "points", "coder", "bpp",
+  std::printf("%-24s %10s  %-18s %8s %12s %12s %12s\n", "file", "points", "coder", "bpp",
               "enc Mpts/s", "dec Mpts/s", "bpp/draco 0");
 }
 
@@ -180,7 +189,7 @@ void compare(const std::string& path, const std::vector<Coder>& coders, int repe
   const std::string name = path.substr(path.rfind('/') + 1);
   for (std::size_t c = 0; c < coders.size(); ++c) {
     const Measurement& result = results[c];
-    std::printf("%-24s %10.0f  %-16s %8.3f %12.2f %12.2f %12.3f\n", name.c_str(), points,
+    std::printf("%-24s %10.0f  %-18s %8.3f %12.2f %12.2f %12.3f\n", name.c_str(), points,
                 coders[c].name.c_str(), 8 * static_cast<double>(result.bytes) / points,
                 points / median(result.encodeSeconds) / 1e6,
                 points / median(result.decodeSeconds) / 1e6,

@@ -50,9 +50,7 @@ EncodeReport encode(const PointSetView& points, ByteSink& sink, const EncodeOpti
   coding.report(0);
   container::ContainerWriter writer(sink, options.layout, report.grid, report.layers);
   SharedProgress progress(coding, report.points);
-  SetEncoder encoder(plan, options, progress, writer, report);
-  encoder.measureAgainst(points);
-  encoder.encode(fit.points, fit.sourceIndex);
+  SetEncoder(plan, options, progress, writer, report).encode(fit.points, fit.sourceIndex, &points);
   writer.finish();
   report.fileBytes = writer.bytesWritten();
   coding.report(1);

@@ -25,24 +25,28 @@ class SetEncoder {
         writer_(writer),
         report_(report) {}
 
-  /// The caller's input, which must outlive this: what a lossy coding moves is measured against it.
-  void measureAgainst(const PointSetView& original) { original_ = &original; }
-
   /// May be called for one part of a set after the other. `sourceIndex`: of each point in the
-  /// caller's input, empty if that is its own.
-  void encode(Span<const GridPoint> points, const std::vector<std::uint64_t>& sourceIndex);
+  /// caller's input, empty if that is its own. `original`: that input, which a lossy coding
+  /// compares with; may be null for a lossless one.
+  void encode(Span<const GridPoint> points, const std::vector<std::uint64_t>& sourceIndex,
+              const PointSetView* original);
 
  private:
-  void encodePart(std::size_t offset, Span<const GridPoint> points,
-                  const std::vector<std::uint64_t>& sourceIndex);
+  void encodePart(std::size_t offset, Span<const GridPoint> points);
+  /// Takes a coded tile whose points' input indices, in decoded order, sourcesOf() gives.
+  void finish(FinishedTile tile, const std::vector<std::uint64_t>& sources);
+  std::vector<std::uint64_t> sourcesOf(const tiling::TileCut& cut, std::size_t tile,
+                                       std::size_t offset,
+                                       const std::vector<std::uint32_t>& order) const;
 
   TileEncoder encoder_;
-  const PointSetView* original_ = nullptr;
   std::size_t tilePoints_;
   const EncodeOptions& options_;
   SharedProgress& progress_;
   container::ContainerWriter& writer_;
   EncodeReport& report_;
+  const std::vector<std::uint64_t>* sourceIndex_ = nullptr;
+  const PointSetView* original_ = nullptr;
 };
 
 }  // namespace bspc

@@ -124,7 +124,11 @@ TEST_P(EveryMethod, LayersStandForTheirPointsWithinTheirSpread) {
 }
 
 TEST_P(EveryMethod, RefusesGridsBeyondItsOwnByName) {
-  if (method().maxBits() == 32) GTEST_SKIP() << "takes every grid";
+  if (method().maxBits() == 32) {
+    const std::vector<GridPoint> corners{{0, 0, 0}, {0, largestOn(method()), 0}};
+    EXPECT_NO_THROW(method().encode(tileOf(corners, 1), {}));
+    return;
+  }
   const std::vector<GridPoint> points{{0, 0, 0}, {0, largestOn(method()) + 1, 0}};
   try {
     method().encode(tileOf(points, 1), {});

@@ -34,11 +34,11 @@ struct EncodeArguments {
   double precision = 0;
   std::optional<unsigned> effort;
   unsigned layers = 0;
-  std::uint64_t stopPoints = 0;
-  std::optional<unsigned> stopLevel;
   std::uint64_t tilePoints = 0;
   unsigned threads = 0;
   double memory = 1;
+  std::uint64_t stopPoints = 0;
+  std::optional<unsigned> stopLevel;
   bool positionsOnly = false;
   bool dropNonFinite = false;
   bool force = false;
@@ -71,10 +71,10 @@ EncodeOptions encodeOptions(const EncodeArguments& args) {
     throw UsageError("method " + args.method + " has no --effort; leave one of the two out");
   }
   options.layers = args.layers;
-  options.stopPoints = args.stopPoints;
-  options.stopLevel = args.stopLevel;
   options.tilePoints = args.tilePoints;
   options.threads = args.threads;
+  options.stopPoints = args.stopPoints;
+  options.stopLevel = args.stopLevel;
   if (!args.method.empty()) options.method = methodFromName(args.method);
   // To a pipe the index goes last, so that a reader of the pipe sees tiles as they come.
   const std::string layout =

@@ -7,8 +7,10 @@
 namespace bspc::container {
 
 void ByteReader::fail(const std::string& what) const {
-  throw Error(ErrorCode::Corrupt,
-              part_ + ", byte " + std::to_string(fileOffset_ + at_) + " of the file: " + what);
+  const std::string place = fileOffset_ == kNoOffset
+                                ? std::to_string(at_) + " of it: "
+                                : std::to_string(fileOffset_ + at_) + " of the file: ";
+  throw Error(ErrorCode::Corrupt, part_ + ", byte " + place + what);
 }
 
 unsigned ByteReader::u8() {

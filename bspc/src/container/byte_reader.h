@@ -12,6 +12,9 @@ namespace bspc::container {
 /// Throws Error(Corrupt) that names the part of the file and the offset.
 class ByteReader {
  public:
+  /// For bytes whose place in the file is not known: errors tell the place among them.
+  static constexpr std::uint64_t kNoOffset = ~std::uint64_t{0};
+
   /// `part` names what is read, e.g. "the head"; `fileOffset` is where the bytes stand in the file.
   ByteReader(ByteView bytes, std::string part, std::uint64_t fileOffset)
       : bytes_(bytes), part_(std::move(part)), fileOffset_(fileOffset) {}

@@ -214,7 +214,7 @@ class LargeSetEncoder {
     for (std::size_t part = 0; part < parts_->parts(); ++part) {
       for (std::uint64_t first = 0; first < parts_->size(part); first += most) {
         const std::uint64_t count = std::min(most, parts_->size(part) - first);
-        encoder.encode(parts_->load(part, first, count), {});
+        encoder.encode(parts_->load(part, first, count), {}, nullptr);
       }
     }
     writer.finish();

@@ -200,7 +200,7 @@ TEST(Sets, OfUnknownKindsAreRefused) {
   const OutputBudget budget(limits);
   DecodedTile out;
   fast::PointCollector collector(frame, budget, {}, out);
-  for (const unsigned kind : {3U, 9U, 16U, 0x22U}) {
+  for (const unsigned kind : {3U, 9U, 16U, 0x22U, 0x71U, 0xF1U}) {
     EXPECT_THROW(
         fast::decodeSet(Bytes{static_cast<std::uint8_t>(kind), 0, 0}, 1, limits, collector), Error);
   }

@@ -82,9 +82,12 @@ void expectTypeIsRead(const std::string& letter, ScalarType expected, T y, doubl
   ascii.precision(20);
   ascii << "7 7 7 -2 0 0 0 0 0 " << +y << " 3\n";
   // A single point is stored field after field in any case.
-  for (const std::string& text :
-       {head + "binary\n" + body, head + "binary_compressed\n" + compressed(body),
-        head + "ascii\n" + ascii.str()}) {
+  const std::vector<std::pair<std::string, std::string>> bodies{
+      {"binary", body}, {"binary_compressed", compressed(body)}, {"ascii", ascii.str()}};
+  for (const auto& [data, content] : bodies) {
+    std::string text = head;
+    text += data + "\n";
+    text += content;
     const Model model = read(text, Format::Pcd);
     EXPECT_EQ(model.type, expected);
     const std::array<double, 3> position = model.view().position(0);
@@ -245,12 +248,18 @@ TEST(Pcd, HugeCountsCostNothing) {
                   {"\"n\"", "1 GiB"});
 }
 
+/// Numbers of which many are the same, for LZF to find.
+std::vector<float> stairs(std::size_t count) {
+  std::vector<float> values(count);
+  for (std::size_t i = 0; i < count; ++i) values[i] = std::floor(static_cast<float>(i) / 9);
+  return values;
+}
+
 TEST(Pcd, NoMutationHarms) {
   test::expectNoMutationHarms(header(kXyz, kFloats, "ascii") + "0.1 2 -3\n4 5e-7 6\n", Format::Pcd,
                               3000);
   test::expectNoMutationHarms(header(kXyz, kFloats, "binary") + bytesOf(kTwo), Format::Pcd, 3000);
-  std::vector<float> many;
-  for (int i = 0; i < 300; ++i) many.push_back(static_cast<float>(i / 9));
+  const std::vector<float> many = stairs(300);
   // LZF data may grow 88-fold, and 3 bytes become 24 where types meet in float64.
   constexpr std::size_t kGrowth = std::size_t{88} * 8;
   test::expectNoMutationHarms(
@@ -259,8 +268,7 @@ TEST(Pcd, NoMutationHarms) {
 }
 
 TEST(Pcd, NoDamageToCompressedDataHarms) {
-  std::vector<float> many;
-  for (int i = 0; i < 3000; ++i) many.push_back(static_cast<float>(i / 7));
+  const std::vector<float> many = stairs(3000);
   const std::string head = header(kXyz, kFloats, "binary_compressed", "WIDTH 1000\n");
   const std::string body = compressed(byField(many));
   std::mt19937_64 random(1);

@@ -55,7 +55,7 @@ long peakKilobytes() {
 void expectMemoryStaysSmall(Format format, const std::string& head, const std::string& point) {
   RepeatingBuffer buffer(head, repeated(point, kPointsOfPiece), kPieces);
   std::istream in(&buffer);
-  std::vector<std::uint8_t> block(24 * 4096);
+  std::vector<std::uint8_t> block(std::size_t{24} * 4096);
   const long before = peakKilobytes();
   const auto points = openPointStream(in, format);
   std::size_t total = 0;
@@ -134,7 +134,7 @@ TEST(PointStream, ReadingCanBeStopped) {
   std::istream in(&buffer);
   int calls = 0;
   const auto points = openPointStream(in, Format::Xyz, [&calls](double) { return ++calls < 4; });
-  std::vector<std::uint8_t> block(24 * 4096);
+  std::vector<std::uint8_t> block(std::size_t{24} * 4096);
   const auto readAll = [&] {
     while (points->read(block.data(), 4096) == 4096) {
     }

@@ -138,6 +138,24 @@ bool isRegular(const std::vector<std::uint32_t>& values) {
 
 namespace {
 
+/// Bits of tables and symbols; extra bits are the same for every pattern.
+double stepCost(const AxisValues& axes, StepPattern pattern) {
+  std::vector<SymbolCounts> counts(StepContext::count(pattern));
+  for (const std::vector<std::uint32_t>& values : axes) {
+    StepContext context(pattern);
+    for (std::size_t i = 1; i < values.size(); ++i) {
+      const std::uint64_t step = std::uint64_t{values[i]} - values[i - 1];
+      ++counts[context.index()][kStepCode.symbolOf(step - 1)];
+      context.push(step);
+    }
+  }
+  BitWriter bits;
+  const std::vector<FrequencyTable> tables = writeTables(bits, counts, defaultFieldTables());
+  auto cost = static_cast<double>(bits.bitCount());
+  for (std::size_t t = 0; t < tables.size(); ++t) cost += tables[t].cost(counts[t]);
+  return cost;
+}
+
 Bytes writeSteps(const AxisValues& axes, StepPattern pattern) {
   RansWriter symbols;
   BitWriter raw;
@@ -155,8 +173,8 @@ Bytes writeSteps(const AxisValues& axes, StepPattern pattern) {
   const unsigned contexts = StepContext::count(pattern);
   BitWriter tables;
   tables.put(static_cast<std::uint64_t>(pattern), kPatternBits);
-  const Bytes coded = symbols.finish(
-      writeTables(tables, symbols.counts(contexts), defaultFieldTables(contexts)), 1);
+  const Bytes coded =
+      symbols.finish(writeTables(tables, symbols.counts(contexts), defaultFieldTables()), 1);
   const Bytes head = tables.finish();
   container::ByteWriter out;
   for (const std::vector<std::uint32_t>& values : axes) {
@@ -173,17 +191,21 @@ Bytes writeSteps(const AxisValues& axes, StepPattern pattern) {
 }  // namespace
 
 Bytes writeValues(const AxisValues& values) {
-  Bytes best = writeSteps(values, StepPattern::Last);
+  StepPattern best = StepPattern::Last;
+  double bestCost = stepCost(values, best);
   for (const StepPattern pattern : {StepPattern::LastThree, StepPattern::Repeats}) {
-    Bytes other = writeSteps(values, pattern);
-    if (other.size() < best.size()) best = std::move(other);
+    const double cost = stepCost(values, pattern);
+    if (cost >= bestCost) continue;
+    best = pattern;
+    bestCost = cost;
   }
-  return best;
+  return writeSteps(values, best);
 }
 
 AxisValues readValues(ByteView section, const std::array<bool, 3>& ranked, std::uint64_t maxValues,
                       const GridPoint& extent, const OutputBudget& budget) {
-  container::ByteReader reader(section, "the values of the axes", 0);
+  container::ByteReader reader(section, "the values of the axes of a tile",
+                               container::ByteReader::kNoOffset);
   std::uint64_t counts[3] = {};
   for (unsigned k = 0; k < 3; ++k) {
     if (!ranked[k]) continue;
@@ -203,8 +225,7 @@ AxisValues readValues(ByteView section, const std::array<bool, 3>& ranked, std::
   BitReader head(padded.data(), headSize);
   const auto pattern = static_cast<StepPattern>(head.get(kPatternBits));
   if (pattern >= StepPattern::Count) reader.fail("an unknown pattern of steps");
-  const std::vector<DecodingTable> tables =
-      readTables(head, defaultFieldTables(StepContext::count(pattern)));
+  const TableSet tables(head, defaultFieldTables(), StepContext::count(pattern));
   head.expectEnd();
   RansReader symbols(padded.data() + headSize, codedSize, 1);
   BitReader raw(padded.data() + headSize + codedSize, rest.size() - headSize - codedSize);

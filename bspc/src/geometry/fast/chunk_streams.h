@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "bspc/error.h"
@@ -27,15 +29,36 @@ enum Field : unsigned {
   kFields
 };
 
-/// Tables of the streams that are assumed unless a tile brings its own.
-std::vector<FrequencyTable> defaultTables(const ValueClasses& classes, const ValueCode& code);
-std::vector<FrequencyTable> defaultFieldTables(unsigned count);
+/// Tables that are assumed of a stream unless a tile brings its own; made once. Tables past the
+/// last are like it.
+struct DefaultTables {
+  std::vector<FrequencyTable> frequencies;
+  std::vector<DecodingTable> decoding;
+
+  explicit DefaultTables(std::vector<FrequencyTable> tables)
+      : frequencies(std::move(tables)), decoding(frequencies.begin(), frequencies.end()) {}
+  std::size_t index(std::size_t table) const { return std::min(table, frequencies.size() - 1); }
+};
+const DefaultTables& defaultGapTables();
+const DefaultTables& defaultResidualTables();
+const DefaultTables& defaultFieldTables();
+
+/// The tables of a stream that is decoded.
+class TableSet {
+ public:
+  TableSet() = default;
+  /// Reads what writeTables() wrote.
+  TableSet(BitReader& bits, const DefaultTables& defaults, std::size_t count);
+  const DecodingTable& operator[](std::size_t table) const { return *tables_[table]; }
+
+ private:
+  std::vector<const DecodingTable*> tables_;
+  std::vector<std::unique_ptr<DecodingTable>> own_;
+};
 
 /// Chooses for each table between the default and one fitted to the counts, and writes the choice.
 std::vector<FrequencyTable> writeTables(BitWriter& bits, const std::vector<SymbolCounts>& counts,
-                                        std::vector<FrequencyTable> tables);
-/// Reads what writeTables() wrote: the defaults, replaced where the tile brings its own.
-std::vector<DecodingTable> readTables(BitReader& bits, const std::vector<FrequencyTable>& defaults);
+                                        const DefaultTables& defaults);
 
 /// Where chunks are written to. ChunkReader has the same shape, so that one description
 /// (chunk_coder.h) serves both.
@@ -97,9 +120,9 @@ struct ChunkReader {
   RansReader residuals;
   RansReader fields;
   BitReader raw;
-  std::vector<DecodingTable> gapTables;
-  std::vector<DecodingTable> residualTables;
-  std::vector<DecodingTable> fieldTables;
+  TableSet gapTables;
+  TableSet residualTables;
+  TableSet fieldTables;
 
   std::uint64_t field(Field which, std::uint64_t /*value*/) {
     const unsigned symbol = fields.symbol(fieldTables[which]);
@@ -125,7 +148,7 @@ struct ChunkReader {
 
  private:
   template <class T>
-  void values(RansReader& stream, const std::vector<DecodingTable>& tables, const ValueCode& code,
+  void values(RansReader& stream, const TableSet& tables, const ValueCode& code,
               const ValueClasses& classes, unsigned cls, T* values, std::size_t count) {
     const unsigned shift = classes.shift(cls);
     std::array<std::uint8_t, kChunkPoints> symbols;

@@ -163,7 +163,8 @@ DecodedTile FastMethod::decode(const TileToDecode& tile, const PointProgress& pr
   }
   DecodedTile result;
   const OutputBudget budget(tile);
-  container::ByteReader first(tile.payloads[0], "a tile of method fast", 0);
+  container::ByteReader first(tile.payloads[0], "a tile of method fast",
+                              container::ByteReader::kNoOffset);
   const fast::TileHeader header = fast::readHeader(first, tile, budget);
   const fast::LayerStrides strides(tile.points, tile.layers, header.ratioBits);
   fast::PointCollector collector(header.frame, budget, progress, result);

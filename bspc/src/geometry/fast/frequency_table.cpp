@@ -69,6 +69,7 @@ SymbolCounts storedWeights(const SymbolCounts& counts) {
   std::uint64_t total = 0;
   for (const std::uint32_t c : counts) total += c;
   SymbolCounts weights{};
+  if (total == 0) return weights;
   for (unsigned s = 0; s < kSymbols; ++s) {
     if (counts[s] == 0) continue;
     const std::uint64_t share = (std::uint64_t{counts[s]} * kFrequencyTotal + total / 2) / total;

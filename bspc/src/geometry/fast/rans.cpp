@@ -111,7 +111,7 @@ Bytes RansWriter::finish(const std::vector<FrequencyTable>& tables, unsigned lan
     }
   }
   Bytes out;
-  out.reserve(4 * lanes + static_cast<std::size_t>(words.end() - words.begin()));
+  out.reserve(std::size_t{4} * lanes + static_cast<std::size_t>(words.end() - words.begin()));
   for (unsigned lane = 0; lane < lanes; ++lane) {
     for (unsigned shift = 0; shift < 32; shift += 8) {
       out.push_back(static_cast<std::uint8_t>(states[lane] >> shift));

@@ -14,6 +14,8 @@ namespace {
 /// How a set is coded: the low bits of its first byte. The high four are the UvTree's levels.
 enum Kind : unsigned { kCurve = 0, kTree = 1, kCounts = 2, kKinds = 3 };
 constexpr unsigned kKindBits = 4;
+/// More would let a few bytes ask for much work: a tree's counts grow twofold with every level.
+constexpr unsigned kMaxExtraLevels = 6;
 
 /// Sets of so few points may be too small for the statistics of slabs.
 constexpr std::size_t kFewPoints = 8192;
@@ -36,7 +38,7 @@ SlabOptions presetOf(unsigned effort) {
       break;
     default:
       options.uvTree = true;
-      options.extraLevels = 6;
+      options.extraLevels = kMaxExtraLevels;
   }
   return options;
 }
@@ -98,7 +100,7 @@ void decodeSet(ByteView payload, std::uint64_t points, const TileToDecode& limit
   const unsigned kind = payload[0] & ((1U << kKindBits) - 1);
   const unsigned extraLevels = payload[0] >> kKindBits;
   const ByteView body = payload.subspan(1, payload.size() - 1);
-  if (kind >= kKinds || (kind != kTree && extraLevels != 0)) {
+  if (kind >= kKinds || extraLevels > (kind == kTree ? kMaxExtraLevels : 0)) {
     throw Error(ErrorCode::Corrupt,
                 "a set of points is coded in an unknown way (" + std::to_string(payload[0]) + ")");
   }

@@ -15,7 +15,7 @@ struct SlabOptions {
   PlanOptions plan;
   FitOptions fit;
   bool uvTree = false;       ///< (u, v) as a tree with contexts rather than gaps along a curve
-  unsigned extraLevels = 0;  ///< of that tree, 0 … 15
+  unsigned extraLevels = 0;  ///< of that tree, 0 … 6
 };
 
 /// A set of points and the order in which a decoder returns them.

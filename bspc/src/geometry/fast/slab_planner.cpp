@@ -90,9 +90,9 @@ std::uint32_t SlabPlanner::split(const Cell& upper, unsigned axis, std::uint32_t
 }
 
 /// `inLarge`: no node above was small enough for a slab.
-std::int32_t SlabPlanner::build(const Cell& cell, std::uint32_t path, unsigned depth,
-                                std::uint32_t first, std::uint32_t last, bool inLarge) {
-  const auto id = static_cast<std::int32_t>(nodes_.size());
+std::uint32_t SlabPlanner::build(const Cell& cell, std::uint32_t path, unsigned depth,
+                                 std::uint32_t first, std::uint32_t last, bool inLarge) {
+  const auto id = static_cast<std::uint32_t>(nodes_.size());
   PlanNode node;
   node.cell = cell;
   node.first = first;
@@ -195,9 +195,9 @@ double SlabPlanner::shadowArea(const PlanNode& node, unsigned heightAxis) const 
 /// and do not lie above one another.
 void SlabPlanner::mergeByShape(PlanNode& node, unsigned axis) {
   static const PlanNode kEmpty{};
-  const PlanNode& low = node.child[0] >= 0 ? nodes_[node.child[0]] : kEmpty;
-  const PlanNode& high = node.child[1] >= 0 ? nodes_[node.child[1]] : kEmpty;
-  if ((node.child[0] >= 0 && !low.slab) || (node.child[1] >= 0 && !high.slab)) return;
+  const PlanNode& low = node.has(0) ? nodes_[node.child[0]] : kEmpty;
+  const PlanNode& high = node.has(1) ? nodes_[node.child[1]] : kEmpty;
+  if ((node.has(0) && !low.slab) || (node.has(1) && !high.slab)) return;
   const unsigned levels = node.cell.levels[axis];
   bool stacked[3] = {};
   for (unsigned h = 0; h < 3; ++h) {
@@ -214,8 +214,8 @@ void SlabPlanner::mergeByShape(PlanNode& node, unsigned axis) {
       stacked[h] = popcount(a & b) * 10 > std::min(popcount(a), popcount(b)) * 6;
     }
   }
-  unsigned height = node.child[0] < 0 ? high.heightAxis : low.heightAxis;
-  if (node.child[0] >= 0 && node.child[1] >= 0) {
+  unsigned height = !node.has(0) ? high.heightAxis : low.heightAxis;
+  if (node.has(0) && node.has(1)) {
     height = heightAxis(node);
     const double together = shadowArea(low, height) + shadowArea(high, height);
     const double apart = shadowArea(low, low.heightAxis) + shadowArea(high, high.heightAxis);
@@ -232,8 +232,8 @@ float SlabPlanner::cost(PlanNode& node) {
     node.cost = estimate_(node.cell, points_ + node.first, node.last - node.first, node.heightAxis);
   } else {
     node.cost = kNodeBits;
-    for (const std::int32_t child : node.child) {
-      if (child >= 0) node.cost += cost(nodes_[child]);
+    for (const std::uint32_t child : node.child) {
+      if (child != PlanNode::kNone) node.cost += cost(nodes_[child]);
     }
   }
   return node.cost;

@@ -24,12 +24,13 @@ struct PlanOptions {
 
 /// A node of the partition of a tile into slabs.
 struct PlanNode {
-  static constexpr std::int32_t kNone = -1;
+  static constexpr std::uint32_t kNone = 0xFFFFFFFF;
 
   Cell cell;
-  std::uint32_t first = 0;                 ///< of the planner's points
-  std::uint32_t last = 0;                  ///< one behind
-  std::int32_t child[2] = {kNone, kNone};  ///< lower, upper; kNone if empty
+  std::uint32_t first = 0;                  ///< of the planner's points
+  std::uint32_t last = 0;                   ///< one behind
+  std::uint32_t child[2] = {kNone, kNone};  ///< lower, upper; kNone if empty
+  bool has(unsigned half) const { return child[half] != kNone; }
   bool slab = false;
   unsigned heightAxis = 2;
   std::array<std::uint64_t, 3> shadow{};  ///< by height axis: 8 × 8 footprint that holds points
@@ -57,8 +58,8 @@ class SlabPlanner {
   void sortByPath(std::vector<TilePoint>& points, const Cell& root);
   std::uint32_t split(const Cell& upper, unsigned axis, std::uint32_t path, unsigned depth,
                       std::uint32_t first, std::uint32_t last);
-  std::int32_t build(const Cell& cell, std::uint32_t path, unsigned depth, std::uint32_t first,
-                     std::uint32_t last, bool inLarge);
+  std::uint32_t build(const Cell& cell, std::uint32_t path, unsigned depth, std::uint32_t first,
+                      std::uint32_t last, bool inLarge);
   unsigned heightAxis(const PlanNode& node) const;
   void castShadow(PlanNode& node) const;
   void mergeByShape(PlanNode& node, unsigned axis);

@@ -20,7 +20,8 @@ struct Sections {
   enum { kHead, kTree, kPlane, kResiduals, kFieldStream, kRaw, kCount };
 
   explicit Sections(ByteView body) {
-    container::ByteReader reader(body, "a tile of method fast", 0);
+    container::ByteReader reader(body, "a set of points of method fast",
+                                 container::ByteReader::kNoOffset);
     std::size_t sizes[kCount] = {};
     for (unsigned s = 0; s < kRaw; ++s) sizes[s] = reader.varint32();
     const std::size_t start = reader.position();
@@ -62,12 +63,12 @@ class SlabReader {
       uvCoder_ = std::make_unique<entropy::SymbolReader>(sections.views[Sections::kPlane]);
       uvTree_ = std::make_unique<Tree>(*uvCoder_, in_.raw, extraLevels);
     } else {
-      in_.gapTables = readTables(head_, defaultTables(kGapClasses, kGapCode));
+      in_.gapTables = TableSet(head_, defaultGapTables(), kGapClasses.tables());
       in_.gaps = stream(Sections::kPlane, lanes);
     }
-    in_.residualTables = readTables(head_, defaultTables(kResidualClasses, kResidualCode));
+    in_.residualTables = TableSet(head_, defaultResidualTables(), kResidualClasses.tables());
     in_.residuals = stream(Sections::kResiduals, lanes);
-    in_.fieldTables = readTables(head_, defaultFieldTables(kFields));
+    in_.fieldTables = TableSet(head_, defaultFieldTables(), kFields);
     in_.fields = stream(Sections::kFieldStream, 1);
     head_.expectEnd();
   }
@@ -135,7 +136,7 @@ class SlabReader {
       throw Error(ErrorCode::Corrupt, "a slab claims " + std::to_string(points) +
                                           " points, more than its tree may have");
     }
-    out_.budget().checkBytes(Tree::memory(points));
+    out_.budget().checkBytes(uvTree_->memory(points));
     plane_.resize(static_cast<std::size_t>(points));
     uvTree_->code(frame, out_.frame().scale, plane_);
     codes_.resize(plane_.size());

@@ -49,14 +49,15 @@ void remember(const Chunk& chunk, SurfaceHistory& history) {
 /// The encoder's side of codeSlabTree(), once the slabs themselves are coded.
 class PlannedSlabs {
  public:
-  using Node = std::int32_t;
+  using Node = std::uint32_t;
   explicit PlannedSlabs(const std::vector<PlanNode>& nodes) : nodes_(nodes) {}
 
   bool isSlab(Node n) const { return nodes_[n].slab; }
   unsigned heightAxis(Node n) const { return nodes_[n].heightAxis; }
   std::uint64_t countLower(Node n) const {
-    const Node lower = nodes_[n].child[0];
-    return lower < 0 ? 0 : nodes_[lower].last - nodes_[lower].first;
+    if (!nodes_[n].has(0)) return 0;
+    const PlanNode& lower = nodes_[nodes_[n].child[0]];
+    return lower.last - lower.first;
   }
   Node child(Node n, unsigned half) const { return nodes_[n].child[half]; }
   void slab(Node n, const Cell& /*cell*/, std::uint64_t /*points*/, unsigned /*axis*/) {
@@ -87,7 +88,7 @@ class SlabWriter {
     BitWriter tree;
     PlannedSlabs slabs(planner.nodes());
     codeSlabTree(tree, slabs, 0, rootCell(frame_.extent), points.size(), frame_.scale);
-    for (const std::int32_t id : slabs.order()) {
+    for (const std::uint32_t id : slabs.order()) {
       const PlanNode& node = planner.nodes()[id];
       writeSlab(node.cell, points.data() + node.first, node.last - node.first, node.heightAxis);
     }
@@ -144,26 +145,23 @@ class SlabWriter {
 
   Bytes assemble(const Bytes& tree, std::size_t points) {
     const unsigned lanes = ransLanes(points);
-    const auto code = [](const RansWriter& stream, BitWriter& head,
-                         std::vector<FrequencyTable> defaults, unsigned streamLanes) {
-      const auto counts = stream.counts(static_cast<unsigned>(defaults.size()));
-      return stream.finish(writeTables(head, counts, std::move(defaults)), streamLanes);
-    };
     BitWriter tables;
-    Bytes gaps = options_.uvTree
-                     ? uvCoder_.finish()
-                     : code(out_.gaps, tables, defaultTables(kGapClasses, kGapCode), lanes);
+    const auto code = [&tables](const RansWriter& stream, const DefaultTables& defaults,
+                                unsigned count, unsigned streamLanes) {
+      return stream.finish(writeTables(tables, stream.counts(count), defaults), streamLanes);
+    };
+    const Bytes gaps = options_.uvTree
+                           ? uvCoder_.finish()
+                           : code(out_.gaps, defaultGapTables(), kGapClasses.tables(), lanes);
     const Bytes residuals =
-        code(out_.residuals, tables, defaultTables(kResidualClasses, kResidualCode), lanes);
-    const Bytes fields = code(out_.fields, tables, defaultFieldTables(kFields), 1);
+        code(out_.residuals, defaultResidualTables(), kResidualClasses.tables(), lanes);
+    const Bytes fields = code(out_.fields, defaultFieldTables(), kFields, 1);
     const Bytes head = tables.finish();
     container::ByteWriter body;
-    for (const Bytes* section :
-         {&head, &tree, static_cast<const Bytes*>(&gaps), &residuals, &fields}) {
+    for (const Bytes* section : {&head, &tree, &gaps, &residuals, &fields}) {
       body.varint(section->size());
     }
-    for (const Bytes* section :
-         {&head, &tree, static_cast<const Bytes*>(&gaps), &residuals, &fields}) {
+    for (const Bytes* section : {&head, &tree, &gaps, &residuals, &fields}) {
       body.bytes(*section);
     }
     body.bytes(out_.raw.finish());

@@ -39,9 +39,11 @@ class UvTree {
     finish(points);
   }
 
-  /// Bytes that code() keeps for so many points, at most.
-  static std::uint64_t memory(std::uint64_t points) {
-    return 4 * sizeof(Node) * points + (std::uint64_t{6} << kMaxDepth);
+  /// Bytes that code() needs for so many points, at most.
+  std::uint64_t memory(std::uint64_t points) const {
+    const unsigned depth = std::min(entropy::bitLength(points) + extraLevels_, kMaxDepth);
+    // With its border, a level has up to three times its cells, and all levels twice the last's.
+    return 5 * sizeof(Node) * points + (std::uint64_t{12} << depth) + 1024;
   }
 
  private:
