@@ -51,6 +51,7 @@ std::string distanceText(const VerifyArguments& args, const Grid& grid,
   }
   if (given.empty()) return ", as many as in " + args.against;
   std::vector<std::array<double, 3>> restored;
+  restored.reserve(points.size());
   for (const GridPoint& p : points) {
     restored.push_back({restoredCoordinate(grid, 0, p[0]), restoredCoordinate(grid, 1, p[1]),
                         restoredCoordinate(grid, 2, p[2])});

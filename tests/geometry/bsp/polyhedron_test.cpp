@@ -21,7 +21,7 @@ CutPlane randomPlane(std::mt19937_64& random, std::uint32_t side) {
   std::int64_t sum = 0;
   for (std::int32_t& n : plane.normal) {
     n = static_cast<std::int32_t>(random() % 8193) - 4096;
-    sum += n * static_cast<std::int64_t>(random() % (2 * side));
+    sum += n * static_cast<std::int64_t>(random() % (std::uint64_t{2} * side));
   }
   plane.offset = sum;
   return plane;
@@ -32,7 +32,7 @@ TEST(Polyhedron, ABoxHasItsVolume) {
   box.setBox({9, 19, 29});
   const std::int64_t cube = kOneStep * kOneStep * kOneStep;
   EXPECT_EQ(box.volumeShift(), 0U);
-  EXPECT_EQ(box.volume(0), 6 * 10 * 20 * 30 * cube);
+  EXPECT_EQ(box.volume(0), std::int64_t{6} * 10 * 20 * 30 * cube);
   EXPECT_TRUE(box.isBox());
 }
 

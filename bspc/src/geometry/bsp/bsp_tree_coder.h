@@ -19,10 +19,11 @@ namespace bspc::geometry {
 /// The traversal of method bsp, for encoder and decoder alike.
 ///
 /// `Points` answers the encoder's questions and takes the decoder's points:
-///   double wantedPhi/Psi/Alpha(…)                            see bsp_points.h
+///   WantedDirection wantedDirection(const BspCell&, frame), double wantedAlpha(…)
 ///   std::uint64_t partition(const BspCell&, const CutPlane&) points in front, moved to the fore
 ///   GridPoint at(std::uint64_t j)                            the j-th leaf point
 ///   void tally(const BspCell&, places, uint64 counts)        points at each place, sorted so
+///   void lost()                                              a box has missed a point
 ///   void emit(const GridPoint&, std::uint64_t count, const BspCell&)
 ///   void cellsInMemory(std::uint64_t bytes)                  throws if they are too many
 template <class Coder, class Points>
@@ -54,17 +55,18 @@ class BspTreeCoder {
     coder_ = &coder;
     while (anyOpen() && coder.bit(deeper_, frontier_.size() < enough)) {
       std::vector<BspCell> next;
-      std::uint64_t bytes = 0;
+      std::uint64_t bytes = 0;  // of this level's cells and of the next one's
+      for (const BspCell& cell : frontier_) bytes += cell.bytes();
       for (BspCell& cell : frontier_) {
         const std::size_t before = next.size();
         if (open(cell, level_)) {
           cut(cell, level_, next);
+          cell.shape = {};
         } else {
           next.push_back(std::move(cell));
         }
         for (std::size_t i = before; i < next.size(); ++i) bytes += next[i].bytes();
         points_.cellsInMemory(bytes);
-        cell.shape = {};
       }
       frontier_.swap(next);
       ++level_;
@@ -143,8 +145,8 @@ class BspTreeCoder {
     if (oriented) {
       WantedDirection wanted;
       if (Coder::kWriting) wanted = points_.wantedDirection(cell, frame);
-      const std::int64_t sinPhi = floorHalf(
-          planes_.code(*coder_, CutParameterModel::kPhi, bits.phi, wanted.sinPhi / kMaxSinPhi));
+      const std::int64_t sinPhi =
+          planes_.code(*coder_, CutParameterModel::kPhi, bits.phi, wanted.sinPhi / kMaxSinPhi) / 2;
       const std::int64_t reach = sinPhi < 0 ? -sinPhi : sinPhi;
       const double share =
           reach > 0 ? wanted.cosPsi * static_cast<double>(kUnit) / static_cast<double>(reach) : 0;
@@ -164,8 +166,6 @@ class BspTreeCoder {
     return planeAt(frame, normal, alpha);
   }
 
-  static std::int64_t floorHalf(std::int64_t v) { return v / 2; }
-
   void cutShape(const BspCell& cell, const CutPlane& plane, bool exact,
                 std::vector<BspCell>& parts) {
     const PolyhedronCut cut(whole_, plane, exact);
@@ -175,7 +175,7 @@ class BspTreeCoder {
     }
     GridBox frontBox = cell.box;
     GridBox backBox = cell.box;
-    if (exact) divide(cell.box, plane, frontBox, backBox);
+    if (exact) divide(plane, frontBox, backBox);
     const bool divided = cut.hasFront() && cut.hasBack();
     if (divided) {
       cut.build(true, front_);
@@ -195,14 +195,14 @@ class BspTreeCoder {
     const Polyhedron* back;
   };
 
-  static void divide(const GridBox& box, const CutPlane& plane, GridBox& front, GridBox& back) {
+  /// What a plane across an axis leaves of a box, which both sides are at first.
+  static void divide(const CutPlane& plane, GridBox& front, GridBox& back) {
     for (unsigned k = 0; k < 3; ++k) {
       if (plane.normal[k] == 0) continue;
       const auto at = static_cast<std::uint32_t>(plane.offset / 2);
       front.lower[k] = at;
       back.upper[k] = at - 1;
     }
-    (void)box;
   }
 
   void cutBox(const BspCell& cell, std::vector<BspCell>& parts) {
@@ -211,7 +211,7 @@ class BspTreeCoder {
     const CutPlane plane = middlePlane(cell.box);
     GridBox front = cell.box;
     GridBox back = cell.box;
-    divide(cell.box, plane, front, back);
+    divide(plane, front, back);
     share(box, plane, front, back, {nullptr, nullptr}, parts);
   }
 

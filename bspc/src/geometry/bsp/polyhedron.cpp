@@ -155,7 +155,8 @@ void Polyhedron::unpack(const std::vector<std::uint8_t>& bytes) {
 
 PolyhedronCut::PolyhedronCut(const Polyhedron& whole, const CutPlane& plane, bool exact)
     : whole_(whole), plane_(plane), exact_(exact) {
-  const IntegerVector normal{2 * plane.normal[0], 2 * plane.normal[1], 2 * plane.normal[2]};
+  const IntegerVector normal{std::int64_t{2} * plane.normal[0], std::int64_t{2} * plane.normal[1],
+                             std::int64_t{2} * plane.normal[2]};
   const std::int64_t offset = plane.offset * kOneStep;
   for (unsigned i = 0; i < whole.vertices_; ++i) {
     height_[i] = dot(normal, whole.vertex(i)) - offset;

@@ -117,7 +117,7 @@ class KdTreeCoder {
         constexpr unsigned kMask = (1U << KdCountModel::kHistoryBits) - 1;
         const unsigned oneSided = inLower == 0 || inLower == cell.count ? 1U : 0U;
         halves.lower.history = halves.upper.history =
-            static_cast<std::uint16_t>(((cell.history << 1U) | oneSided) & kMask);
+            static_cast<std::uint16_t>(((unsigned{cell.history} << 1) | oneSided) & kMask);
       }
       halves.upper.lower[axis] += half;
     }

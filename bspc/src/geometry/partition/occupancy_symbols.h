@@ -77,7 +77,7 @@ class GenCodeSymbols {
     for (unsigned i = 0; i < 2; ++i) {
       children[i].occupancy = kClasses[kPairs[pair][i]];
       children[i].history =
-          static_cast<std::uint8_t>(((cell.history << 1) | oneSided) & (kHistories - 1));
+          static_cast<std::uint8_t>(((unsigned{cell.history} << 1) | oneSided) & (kHistories - 1));
     }
   }
 
