@@ -82,8 +82,10 @@ void printText(const std::string& name, const FileInfo& info) {
     for (int k = 0; k < 3; ++k) {
       const auto axis = static_cast<std::size_t>(k);
       std::cout << ' ' << "xyz"[k] << " ["
-                << shortest(restoredCoordinate(info.grid, k, info.lower[axis])) << ", "
-                << shortest(restoredCoordinate(info.grid, k, info.upper[axis])) << ']';
+                << coordinateText(info.grid, restoredCoordinate(info.grid, k, info.lower[axis]))
+                << ", "
+                << coordinateText(info.grid, restoredCoordinate(info.grid, k, info.upper[axis]))
+                << ']';
     }
     std::cout << '\n';
   }
@@ -95,7 +97,7 @@ void printText(const std::string& name, const FileInfo& info) {
   for (std::size_t l = 0; l < info.layers.size(); ++l) {
     const LayerInfo& layer = info.layers[l];
     const std::string points = withCommas(layer.points);
-    const std::string within = layer.spread == 0 ? "0" : shortest(layer.spread * info.grid.step(0));
+    const std::string within = layer.spread == 0 ? "0" : rounded(layer.spread * info.grid.step(0));
     const std::string level = std::to_string(l);
     const auto pad = [](const std::string& text, std::size_t width) {
       return text.size() < width ? std::string(width - text.size(), ' ') + text : text;

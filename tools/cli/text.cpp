@@ -28,6 +28,20 @@ std::string shortest(double value) {
   return {buffer.data(), end};
 }
 
+std::string coordinateText(const Grid& grid, double value) {
+  if (grid.scalarType != ScalarType::Float32) return shortest(value);
+  std::array<char, 64> buffer{};
+  const auto single = static_cast<float>(value);
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), single).ptr;
+  return {buffer.data(), end};
+}
+
+std::string rounded(double value) {
+  std::array<char, 64> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%.6g", value);
+  return buffer.data();
+}
+
 std::string errorText(bool exact, const std::array<double, 3>& maxError) {
   if (exact) return "exact";
   std::array<char, 64> buffer{};

@@ -13,6 +13,10 @@ std::string withCommas(std::uint64_t value);
 std::string fixed(double value, int digits);
 /// The shortest text that reads back as the same double.
 std::string shortest(double value);
+/// A coordinate of the grid, as short as its scalar type allows.
+std::string coordinateText(const Grid& grid, double value);
+/// Six significant digits.
+std::string rounded(double value);
 /// "exact", or "greatest error 0.0005 (x), …" with the largest over the axes.
 std::string errorText(bool exact, const std::array<double, 3>& maxError);
 /// One line: "step 0.01 from (1, 2, 3), float64".

@@ -98,19 +98,26 @@ GridFit compare(const VerifyArguments& args, const FileInfo& info, std::vector<G
 void runVerify(const VerifyArguments& args) {
   InputFile input(args.input);
   Decoder decoder = naming(input.name(), [&] { return Decoder(input.source()); });
-  DecodedPoints decoded;
+  std::uint64_t count = 0;
+  std::vector<GridPoint> points;
   {
     ProgressBar bar("verifying", args.quiet);
     DecodeOptions options;
     options.progress = bar.callback();
     options.threads = args.threads;
-    decoded = naming(input.name(), [&] { return decoder.decode(options); });
+    naming(input.name(), [&] {
+      decoder.decodeTiles(options, [&](DecodedPoints&& tile) {
+        count += tile.points.size();
+        if (args.against.empty()) return;
+        points.insert(points.end(), tile.points.begin(), tile.points.end());
+      });
+    });
   }
-  std::string result = "every checksum holds, " + withCommas(decoded.points.size()) + " points";
+  std::string result = "every checksum holds, " + withCommas(count) + " points";
   if (args.lossy) {
-    result += distanceText(args, decoder.info().grid, decoded.points);
+    result += distanceText(args, decoder.info().grid, points);
   } else if (!args.against.empty()) {
-    const GridFit fit = compare(args, decoder.info(), std::move(decoded.points));
+    const GridFit fit = compare(args, decoder.info(), std::move(points));
     result += ", those of " + args.against + ", " + errorText(fit.exact, fit.maxError);
   }
   if (!args.quiet) std::cout << input.name() << ": " << result << '\n';

@@ -140,14 +140,23 @@ FinitePoints finitePoints(const PointSetView& points, bool drop, std::uint64_t f
 Ranges rangesOf(const Coordinates& coordinates) {
   Ranges ranges;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    double min = std::numeric_limits<double>::infinity();
-    double max = -min;
-    coordinates.all(axis, [&](double value) {
-      min = std::min(min, value);
-      max = std::max(max, value);
-      return true;
-    });
-    ranges[axis] = {min + 0.0, max + 0.0};
+    // Several at a time, so that no comparison waits for the one before.
+    constexpr std::size_t kLanes = 8;
+    std::array<double, kLanes> low;
+    std::array<double, kLanes> high;
+    low.fill(std::numeric_limits<double>::infinity());
+    high.fill(-std::numeric_limits<double>::infinity());
+    Coordinates::Chunk chunk{};
+    for (std::uint64_t first = 0; first < coordinates.size(); first += Coordinates::kChunk) {
+      const std::size_t count = coordinates.chunkSize(first);
+      coordinates.gather(axis, first, count, chunk.data());
+      for (std::size_t i = 0; i < count; ++i) {
+        low[i % kLanes] = std::min(low[i % kLanes], chunk[i]);
+        high[i % kLanes] = std::max(high[i % kLanes], chunk[i]);
+      }
+    }
+    ranges[axis] = {*std::min_element(low.begin(), low.end()) + 0.0,
+                    *std::max_element(high.begin(), high.end()) + 0.0};
   }
   return ranges;
 }
