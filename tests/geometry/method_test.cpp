@@ -199,6 +199,39 @@ TEST_P(EveryMethod, SurvivesDamagedStreams) {
   EXPECT_GT(refused, kTrials / 2) << "damage is hardly ever noticed";
 }
 
+TEST_P(EveryMethod, SurvivesRandomBytes) {
+  // Random bytes reach parameters and rules that this encoder never writes.
+  std::mt19937_64 random(13);
+  unsigned refused = 0;
+  constexpr unsigned kTrials = 2000;
+  for (unsigned trial = 0; trial < kTrials; ++trial) {
+    std::vector<Bytes> payloads(1 + random() % 3);
+    for (Bytes& payload : payloads) {
+      payload.resize(random() % 200);
+      for (std::uint8_t& byte : payload) byte = static_cast<std::uint8_t>(random());
+    }
+    TileToDecode decode;
+    decode.version = static_cast<unsigned>(random() % (method().version() + 1));
+    decode.points = 1 + random() % 3000;
+    decode.layers = static_cast<unsigned>(payloads.size() + random() % 2);
+    for (std::uint32_t& v : decode.extent) {
+      v = static_cast<std::uint32_t>(random() % (std::uint64_t{1} << (random() % 22)));
+    }
+    decode.payloads.assign(payloads.begin(), payloads.end());
+    decode.maxPoints = 10000;
+    decode.maxBytes = 1 << 22;
+    decode.maxDepth = 512;
+    try {
+      for (const GridPoint& p : method().decode(decode, {}).points) {
+        for (std::size_t k = 0; k < 3; ++k) ASSERT_LE(p[k], decode.extent[k]);
+      }
+    } catch (const Error&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, kTrials / 2) << "nonsense is hardly ever noticed";
+}
+
 INSTANTIATE_TEST_SUITE_P(Geometry, EveryMethod, testing::ValuesIn(availableMethods()),
                          [](const auto& method) { return methodName(method.param); });
 
