@@ -24,8 +24,11 @@ void SetEncoder::encodePart(std::size_t offset, Span<const GridPoint> points) {
   const tiling::TileCut cut = tiling::cutTiles(points, tilePoints_);
   const auto produce = [&](std::size_t i) {
     if (cut.order.empty()) return encoder_.encode(points, progress_.piece());
-    std::vector<GridPoint> tile(cut.firsts[i + 1] - cut.firsts[i]);
-    for (std::size_t j = 0; j < tile.size(); ++j) tile[j] = points[cut.order[cut.firsts[i] + j]];
+    std::vector<GridPoint> tile;
+    tile.reserve(cut.firsts[i + 1] - cut.firsts[i]);
+    for (std::size_t j = cut.firsts[i]; j < cut.firsts[i + 1]; ++j) {
+      tile.push_back(points[cut.order[j]]);
+    }
     return encoder_.encode(tile, progress_.piece());
   };
   const auto consume = [&](std::size_t i, FinishedTile tile) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <memory>
 
 namespace bspc::container {
@@ -13,6 +14,13 @@ namespace {
 
 std::uint64_t cut(std::uint64_t hash, unsigned width) {
   return width == 8 ? hash : hash & ((std::uint64_t{1} << (8 * width)) - 1);
+}
+
+bool isLittleEndian() {
+  const std::uint16_t one = 1;
+  std::uint8_t first = 0;
+  std::memcpy(&first, &one, 1);
+  return first == 1;
 }
 
 }  // namespace
@@ -26,8 +34,10 @@ unsigned contentChecksumWidth(std::uint64_t points) {
 }
 
 std::uint64_t contentChecksum(Span<const GridPoint> points) {
-  // Packed into little-endian bytes piece by piece, so that the order of bytes in this machine's
-  // memory does not matter.
+  static_assert(sizeof(GridPoint) == 12);
+  const unsigned width = contentChecksumWidth(points.size());
+  if (isLittleEndian()) return cut(XXH3_64bits(points.data(), 12 * points.size()), width);
+  // Packed into little-endian bytes piece by piece.
   constexpr std::size_t kPiece = 1024;
   std::array<std::uint8_t, 12 * kPiece> piece{};
   const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(),
@@ -46,7 +56,7 @@ std::uint64_t contentChecksum(Span<const GridPoint> points) {
     }
     XXH3_64bits_update(state.get(), piece.data(), 12 * count);
   }
-  return cut(XXH3_64bits_digest(state.get()), contentChecksumWidth(points.size()));
+  return cut(XXH3_64bits_digest(state.get()), width);
 }
 
 }  // namespace bspc::container

@@ -45,7 +45,8 @@ class OutputBudget {
   }
 
  private:
-  static constexpr std::uint64_t kFirst = 256;
+  /// A tile of the usual size needs no growing; less than a megabyte is no risk.
+  static constexpr std::uint64_t kFirst = 65536;
 
   std::uint64_t claimed_;
   std::uint64_t maxPoints_;

@@ -296,10 +296,10 @@ PlacedGrid chooseGrid(const Coordinates& coordinates, const Ranges& ranges,
 /// Puts the points on fit.grid.
 void quantiseInto(GridFit& fit, bool exact, const Coordinates& coordinates, const Ranges& ranges,
                   Progress& progress) {
-  fit.points.resize(static_cast<std::size_t>(coordinates.size()));
-  const auto sink = [&fit](std::uint64_t first, Span<const GridPoint> points) {
-    std::copy(points.begin(), points.end(),
-              fit.points.begin() + static_cast<std::ptrdiff_t>(first));
+  fit.points.clear();
+  fit.points.reserve(static_cast<std::size_t>(coordinates.size()));
+  const auto sink = [&fit](std::uint64_t /*first*/, Span<const GridPoint> points) {
+    fit.points.insert(fit.points.end(), points.begin(), points.end());
   };
   fit.maxError = quantise(coordinates, ranges, {fit.grid, exact}, sink, [&progress](double share) {
     progress.report(kGridChosen + (1 - kGridChosen) * share);
