@@ -31,7 +31,7 @@ class Joiner {
       if (empty || !files_[f]->tiles().empty()) takeGrid(f);
       head_.layers = std::max(head_.layers, files_[f]->head().layers);
     }
-    for (std::size_t f = 0; f < files_.size(); ++f) takeTiles(*files_[f]);
+    for (const auto& file : files_) takeTiles(*file);
   }
 
   JoinReport write(ByteSink& sink) {

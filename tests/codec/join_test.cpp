@@ -24,6 +24,7 @@ std::vector<std::array<double, 3>> coordinates(const Bytes& file, unsigned level
 
 Bytes joined(const std::vector<Bytes>& files, Layout layout, JoinReport* report = nullptr) {
   std::vector<std::shared_ptr<ByteSource>> sources;
+  sources.reserve(files.size());
   for (const Bytes& file : files) sources.push_back(std::make_shared<MemorySource>(file));
   MemorySink sink;
   JoinOptions options;

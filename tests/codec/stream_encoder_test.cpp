@@ -155,8 +155,9 @@ TEST_F(Streaming, ASmallSetIsCodedAsInMemory) {
 }
 
 TEST_F(Streaming, PointsThatAreNotFiniteAreNamedOrDropped) {
+  constexpr std::ptrdiff_t kBroken = 390001;
   std::vector<double> xyz = centimetres(kMany);
-  xyz[3 * 390001 + 1] = std::numeric_limits<double>::quiet_NaN();
+  xyz[std::size_t{3} * kBroken + 1] = std::numeric_limits<double>::quiet_NaN();
   try {
     encodedStream(ScalarType::Float64, xyz, options());
     FAIL() << "was accepted";
@@ -168,7 +169,7 @@ TEST_F(Streaming, PointsThatAreNotFiniteAreNamedOrDropped) {
   wishes.encoding.grid.dropNonFinite = true;
   const Bytes file = encodedStream(ScalarType::Float64, xyz, wishes);
   EXPECT_EQ(report_.dropped, 1U);
-  xyz.erase(xyz.begin() + 3 * 390001, xyz.begin() + 3 * 390002);
+  xyz.erase(xyz.begin() + 3 * kBroken, xyz.begin() + 3 * (kBroken + 1));
   EXPECT_EQ(sortedPoints(decodedNumbers<double>(file)), sortedPoints(xyz));
 }
 
