@@ -10,25 +10,12 @@
 #include "bspc/error.h"
 #include "geometry/geometry_method.h"
 #include "support/point_sets.h"
+#include "support/tiles.h"
 
 namespace bspc::geometry {
 namespace {
 
-TileInput tileOf(const std::vector<GridPoint>& points, unsigned layers) {
-  TileInput tile;
-  tile.points = points;
-  tile.layers = layers;
-  GridPoint upper = points[0];
-  tile.lower = points[0];
-  for (const GridPoint& p : points) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      tile.lower[k] = std::min(tile.lower[k], p[k]);
-      upper[k] = std::max(upper[k], p[k]);
-    }
-  }
-  for (std::size_t k = 0; k < 3; ++k) tile.extent[k] = upper[k] - tile.lower[k];
-  return tile;
-}
+using test::tileOf;
 
 TileToDecode toDecode(const TileInput& tile, const EncodedTile& coded, unsigned layers) {
   TileToDecode decode;

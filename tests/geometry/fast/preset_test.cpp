@@ -12,6 +12,7 @@
 #include "geometry/fast/set_coder.h"
 #include "geometry/kd/kd_method.h"
 #include "support/point_sets.h"
+#include "support/tiles.h"
 
 namespace bspc::geometry {
 namespace {
@@ -19,19 +20,8 @@ namespace {
 constexpr unsigned kInputOrderFlag = 1U << 4;
 
 TileInput tileOf(const std::vector<GridPoint>& points, unsigned effort, unsigned layers) {
-  TileInput tile;
-  tile.points = points;
-  tile.layers = layers;
+  TileInput tile = test::tileOf(points, layers);
   tile.wishes.effort = effort;
-  GridPoint upper = points[0];
-  tile.lower = points[0];
-  for (const GridPoint& p : points) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      tile.lower[k] = std::min(tile.lower[k], p[k]);
-      upper[k] = std::max(upper[k], p[k]);
-    }
-  }
-  for (std::size_t k = 0; k < 3; ++k) tile.extent[k] = upper[k] - tile.lower[k];
   return tile;
 }
 
