@@ -102,10 +102,9 @@ class CategoryCoder {
     }
     const unsigned coded = node - (1U << treeBits_);
     if (coded >= alphabet_.symbols()) {
-      throw Error(ErrorCode::Corrupt, "a category of an array has the number " +
-                                          std::to_string(coded) + ", of " +
-                                          std::to_string(alphabet_.symbols()) +
-                                          ": the file is damaged");
+      throw Error(ErrorCode::Corrupt,
+                  "a category of an array has the number " + std::to_string(coded) + ", of " +
+                      std::to_string(alphabet_.symbols()) + ": the file is damaged");
     }
     symbol = static_cast<std::uint8_t>(coded);
     return coded == alphabet_.words.size();

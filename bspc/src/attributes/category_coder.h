@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -8,8 +9,8 @@
 
 namespace bspc::attributes {
 
-// Method categories: few values that say what a point is (labels, return numbers), coded by those of
-// the nearest points or of the points before in the order of the input.
+// Method categories: few values that say what a point is (labels, return numbers), coded by those
+// of the nearest points or of the points before in the order of the input.
 
 /// The words that have symbols of their own; others are escapes.
 struct CategoryAlphabet {
@@ -20,6 +21,12 @@ struct CategoryAlphabet {
   bool escapes = false;  ///< whether the symbol words.size() occurs, a word in raw bits behind it
 
   unsigned symbols() const { return static_cast<unsigned>(words.size()) + (escapes ? 1U : 0U); }
+
+  /// The symbol of a word; words.size() if it has none.
+  std::uint8_t symbolOf(std::uint64_t word) const {
+    const auto at = std::find(words.begin(), words.end(), word);
+    return static_cast<std::uint8_t>(at - words.begin());
+  }
 };
 
 /// Symbols of the new points, `components` a point, in the order in which they are coded. Contexts
@@ -28,9 +35,9 @@ struct CategoryColumn {
   std::uint32_t components = 1;
   /// By place: known points (spatial contexts only), then new ones.
   std::vector<std::uint8_t> symbols;
-  std::vector<std::uint64_t> escaped;  ///< words of the escapes, in coded order
-  std::size_t first = 0;               ///< place of the first new point
-  std::size_t end = 0;                 ///< behind the last one to be coded
+  std::vector<std::uint64_t> escaped;          ///< words of the escapes, in coded order
+  std::size_t first = 0;                       ///< place of the first new point
+  std::size_t end = 0;                         ///< behind the last one to be coded
   const NeighbourTable* neighbours = nullptr;  ///< null: the three places before
 };
 

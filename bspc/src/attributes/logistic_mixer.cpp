@@ -8,7 +8,7 @@ namespace {
 
 /// round(2^16 / (1 + exp(−k / 2))) for k = −16 … 16; between them the function is taken as linear.
 constexpr std::array<std::uint32_t, 33> kLogistic{
-    22,    36,    60,    98,    162,   267,   439,   720,   1179,  1921, 3108,
+    22,    36,    60,    98,    162,   267,   439,   720,   1179,  1921,  3108,
     4971,  7812,  11955, 17625, 24743, 32768, 40793, 47911, 53581, 57724, 60565,
     62428, 63615, 64357, 64816, 65097, 65269, 65374, 65438, 65476, 65500, 65514};
 constexpr int kSegment = 128;  // odds between two entries

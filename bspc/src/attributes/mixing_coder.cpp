@@ -111,8 +111,7 @@ class MixingCoder {
       greatest = std::max(greatest, value);
     }
     const double corrected = mean + (c > 0 ? regressions_[slot].correction(before) : 0.0);
-    const int expected =
-        static_cast<int>(std::clamp(std::floor(corrected + 0.5), 0.0, 255.0));
+    const int expected = static_cast<int>(std::clamp(std::floor(corrected + 0.5), 0.0, 255.0));
     const int nearest = neighbour(0, c);
     selectContexts(rank, c, expected, greatest > least ? greatest - least : 0);
 

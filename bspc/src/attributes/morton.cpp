@@ -15,7 +15,8 @@ unsigned coordinateBits(Span<const GridPoint> points) {
 
 namespace {
 
-/// Sorts by the code, stable, a byte pass at a time; bytes that are equal in all codes cost nothing.
+/// Sorts by the code, stable, a byte pass at a time; bytes that are equal in all codes cost
+/// nothing.
 void radixSort(std::vector<MortonEntry>& entries) {
   constexpr unsigned kDigits = 256;
   std::uint64_t differing = 0;

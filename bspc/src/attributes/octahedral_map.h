@@ -6,8 +6,9 @@
 
 namespace bspc::attributes {
 
-/// Directions as places on an octahedron that is unfolded to a square of (2^bits − 1)² places (Meyer
-/// and others, "On floating-point normal vectors", 2010). IEEE operations in a written order.
+/// Directions as places on an octahedron that is unfolded to a square of (2^bits − 1)² places
+/// (Meyer and others, "On floating-point normal vectors", 2010). IEEE operations in a written
+/// order.
 class OctahedralMap {
  public:
   using Vector = std::array<double, 3>;
@@ -21,8 +22,8 @@ class OctahedralMap {
 
   /// The place nearest to a direction of any length; the centre for (0, 0, 0) and NaN.
   Place place(const Vector& direction) const {
-    const double length = std::fabs(direction[0]) + std::fabs(direction[1]) +
-                          std::fabs(direction[2]);
+    const double length =
+        std::fabs(direction[0]) + std::fabs(direction[1]) + std::fabs(direction[2]);
     if (!(length > 0) || !(length <= kGreatest)) return {half_, half_};
     const double x = direction[0] / length;
     const double y = direction[1] / length;

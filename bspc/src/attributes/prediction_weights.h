@@ -10,10 +10,10 @@ namespace bspc::attributes {
 
 /// How a value is predicted from those of its neighbours.
 enum class Predictor : std::uint8_t {
-  Nearest = 0,      ///< the nearest one's
-  MeanOf3 = 1,      ///< mean of three, weighted by 1 / (squared distance + 1)
-  MeanOf8 = 2,      ///< of eight
-  PlaneOver8 = 3,   ///< at the point, a linear function fitted to eight
+  Nearest = 0,        ///< the nearest one's
+  MeanOf3 = 1,        ///< mean of three, weighted by 1 / (squared distance + 1)
+  MeanOf8 = 2,        ///< of eight
+  PlaneOver8 = 3,     ///< at the point, a linear function fitted to eight
   QuadricOver20 = 4,  ///< a quadratic function fitted to twenty
 };
 constexpr unsigned kPredictors = 5;

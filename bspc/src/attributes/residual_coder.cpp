@@ -134,11 +134,10 @@ void readResiduals(ByteView stream, const RankedPoints& points, const NeighbourT
   reader.finish();
 }
 
-#define BSPC_INSTANTIATE(Word)                                                                \
-  template Bytes writeResiduals<Word>(const RankedPoints&, const NeighbourTable&,             \
-                                      const ResidualSettings&, std::vector<Word>&,            \
-                                      std::size_t);                                           \
-  template void readResiduals<Word>(ByteView, const RankedPoints&, const NeighbourTable&,     \
+#define BSPC_INSTANTIATE(Word)                                                                   \
+  template Bytes writeResiduals<Word>(const RankedPoints&, const NeighbourTable&,                \
+                                      const ResidualSettings&, std::vector<Word>&, std::size_t); \
+  template void readResiduals<Word>(ByteView, const RankedPoints&, const NeighbourTable&,        \
                                     const ResidualSettings&, std::vector<Word>&);
 BSPC_INSTANTIATE(std::uint8_t)
 BSPC_INSTANTIATE(std::uint16_t)

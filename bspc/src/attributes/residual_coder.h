@@ -27,12 +27,11 @@ struct ResidualSettings {
 };
 
 /// Codes the words of the new points (those of ranks from points.known on) as differences from what
-/// their neighbours let expect. `words` are those of all points, by rank; the decoder fills in those
-/// of new points. The first `limit` new points are coded.
+/// their neighbours let expect. `words` are those of all points, by rank; the decoder fills in
+/// those of new points. The first `limit` new points are coded.
 template <class Word>
 Bytes writeResiduals(const RankedPoints& points, const NeighbourTable& neighbours,
-                     const ResidualSettings& settings, std::vector<Word>& words,
-                     std::size_t limit);
+                     const ResidualSettings& settings, std::vector<Word>& words, std::size_t limit);
 
 template <class Word>
 void readResiduals(ByteView stream, const RankedPoints& points, const NeighbourTable& neighbours,

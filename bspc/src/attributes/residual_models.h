@@ -26,7 +26,7 @@ struct ResidualContext {
   unsigned slot = 0;      ///< the component, as far as components have models of their own
   unsigned expected = 0;  ///< halfOctave of twice the mean size of the neighbours' residuals
   unsigned surprise = 0;  ///< how the component before compared with what was expected: 1 … 7, or 0
-  unsigned signs = 0;     ///< of the nearest neighbour's residual and of the component before: 0 … 8
+  unsigned signs = 0;  ///< of the nearest neighbour's residual and of the component before: 0 … 8
 };
 
 /// Components with models of their own; further ones share the last.
@@ -54,9 +54,9 @@ class ResidualModels {
     const unsigned length = codeLength(coder, entropy::bitLength(residual.size), context);
     if (length == 0) return {};
     residual.size = codeMantissa(coder, residual.size, length, context.slot);
-    const std::size_t sign = (std::size_t{context.slot} * kSignContexts + context.signs) *
-                                 kSignLengths +
-                             std::min(length, kSignLengths) - 1;
+    const std::size_t sign =
+        (std::size_t{context.slot} * kSignContexts + context.signs) * kSignLengths +
+        std::min(length, kSignLengths) - 1;
     residual.negative = coder.bit(signs_[sign], residual.negative);
     return residual;
   }

@@ -30,8 +30,9 @@ class TuplePredictor {
   /// Sphere only: takes up the direction of a tuple that is known now.
   void learn(std::size_t rank) {
     if (settings_.domain != Domain::Sphere) return;
-    const OctahedralMap::Vector d = sphere_.direction(
-        {static_cast<std::uint32_t>(words_[2 * rank]), static_cast<std::uint32_t>(words_[2 * rank + 1])});
+    const OctahedralMap::Vector d =
+        sphere_.direction({static_cast<std::uint32_t>(words_[2 * rank]),
+                           static_cast<std::uint32_t>(words_[2 * rank + 1])});
     for (unsigned k = 0; k < 3; ++k) directions_[rank][k] = static_cast<float>(d[k]);
   }
 
@@ -51,10 +52,14 @@ class TuplePredictor {
   Word predict(std::uint32_t i, const Word* tuple) const {
     if (near_->ranks.empty()) return zeroWord<Word>(settings_.kind);
     switch (settings_.domain) {
-      case Domain::Sphere: return static_cast<Word>(place_[i]);
-      case Domain::Unit: return predictUnit(i, tuple);
-      case Domain::Numbers: return predictNumber(i);
-      default: return predictWord(i);
+      case Domain::Sphere:
+        return static_cast<Word>(place_[i]);
+      case Domain::Unit:
+        return predictUnit(i, tuple);
+      case Domain::Numbers:
+        return predictNumber(i);
+      default:
+        return predictWord(i);
     }
   }
 
@@ -73,7 +78,8 @@ class TuplePredictor {
       sum += near_->weights[j] * static_cast<double>(difference);
     }
     if (!(std::fabs(sum) < kGreatest)) return base;
-    return static_cast<Word>(base + static_cast<Word>(static_cast<std::int64_t>(std::floor(sum + 0.5))));
+    return static_cast<Word>(base +
+                             static_cast<Word>(static_cast<std::int64_t>(std::floor(sum + 0.5))));
   }
 
   /// The mean of the neighbours' numbers.
