@@ -17,7 +17,7 @@ std::uint64_t expectedCount(const ArrayShape& shape, std::size_t tuples) {
   return std::uint64_t{shape.components} * tuples;
 }
 
-void expectValues(const ArrayShape& shape, const ArrayValues& values, std::size_t tuples) {
+void expectValues(const ArrayShape& shape, const TileValues& values, std::size_t tuples) {
   const bool isString = shape.type == ScalarType::String;
   const std::uint64_t wanted = expectedCount(shape, tuples);
   const std::uint64_t given =
@@ -60,7 +60,7 @@ void expectBits(const container::ByteReader& in, const Bytes& numbers, std::size
 
 }  // namespace
 
-EncodedArray encodeArray(const ArrayShape& shape, ArrayValues& values, TilePoints& points,
+EncodedArray encodeArray(const ArrayShape& shape, TileValues& values, TilePoints& points,
                          const ArrayWishes& wishes) {
   expectValues(shape, values, points.size());
   if (points.added() == 0) return {};
@@ -79,7 +79,7 @@ EncodedArray encodeArray(const ArrayShape& shape, ArrayValues& values, TilePoint
 }
 
 void decodeArray(const ArrayShape& shape, ByteView payload, TilePoints& points,
-                 std::uint64_t maxBytes, ArrayValues& values) {
+                 std::uint64_t maxBytes, TileValues& values) {
   expectValues(shape, values, points.known());
   container::ByteReader in(payload, "an array's payload", container::ByteReader::kNoOffset);
   if (points.added() == 0) return in.expectEnd();

@@ -20,7 +20,7 @@ struct ArrayShape {
 };
 
 /// The tuples of a tile in memory, in the order of its points.
-struct ArrayValues {
+struct TileValues {
   /// Packed numbers in the machine's (little-endian) form; Bit: a byte a number, 0 or 1.
   Bytes numbers;
   /// String only: components strings a tuple; numbers is empty then.
@@ -51,7 +51,7 @@ struct EncodedArray {
 /// layer. Several arrays of a tile share one TilePoints, which is all the state there is.
 ///
 /// Throws Error(InvalidArgument) if the values are not as many as the points.
-EncodedArray encodeArray(const ArrayShape& shape, ArrayValues& values, TilePoints& points,
+EncodedArray encodeArray(const ArrayShape& shape, TileValues& values, TilePoints& points,
                          const ArrayWishes& wishes);
 
 /// Appends the tuples of the new points to `values`, which holds those of the known points.
@@ -60,6 +60,6 @@ EncodedArray encodeArray(const ArrayShape& shape, ArrayValues& values, TilePoint
 /// Throws Error(Corrupt, Unsupported, LimitExceeded); any bytes are safe. Whether the payload needs
 /// the order of the input (TilePoints::setInputOrder) stands in it; without it Error(Corrupt).
 void decodeArray(const ArrayShape& shape, ByteView payload, TilePoints& points,
-                 std::uint64_t maxBytes, ArrayValues& values);
+                 std::uint64_t maxBytes, TileValues& values);
 
 }  // namespace bspc::attributes

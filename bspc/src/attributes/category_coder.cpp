@@ -25,7 +25,10 @@ class CategoryCoder {
         treeBits_(entropy::bitLength(std::max(alphabet.symbols(), 1U) - 1)),
         mixers_((std::size_t{kSlots} * kEqualities) << treeBits_,
                 MixerWeights<kContexts>(kStartWeight)) {
-    for (auto& table : tables_) table.resize(std::size_t{1} << kTableBits);
+    const std::uint64_t values = (column.end - column.first) * std::uint64_t{column.components};
+    const unsigned bits = std::clamp(entropy::bitLength(values) + 3, kLeastTableBits, kTableBits);
+    shift_ = 32 - bits;
+    for (auto& table : tables_) table.resize(std::size_t{1} << bits);
   }
 
   void run(std::uint64_t maxEscaped) {
@@ -48,6 +51,7 @@ class CategoryCoder {
   }
 
  private:
+  static constexpr unsigned kLeastTableBits = 10;
   static constexpr unsigned kTableBits = 18;
   static constexpr unsigned kEqualities = 4;  ///< whether the first symbol equals the other two
   static constexpr std::int32_t kStartWeight = 22000;
@@ -94,7 +98,7 @@ class CategoryCoder {
       std::array<ContextBit*, kContexts> bits;
       for (unsigned i = 0; i < kContexts; ++i) {
         const std::uint32_t hash = (hashes[i] + node * 0x9E3779B1U) * 0x85EBCA6BU;
-        bits[i] = &tables_[i][hash >> (32 - kTableBits)];
+        bits[i] = &tables_[i][hash >> shift_];
       }
       const bool one = codeMixed<kContexts>(coder_, logistic_, bits, mixers[node],
                                             ((unsigned{symbol} >> bit) & 1) != 0);
@@ -114,6 +118,7 @@ class CategoryCoder {
   const CategoryAlphabet& alphabet_;
   CategoryColumn& column_;
   unsigned treeBits_;
+  unsigned shift_ = 0;  ///< from hashes to places in the tables
   const LogisticTables& logistic_ = LogisticTables::instance();
   std::array<std::vector<ContextBit>, kContexts> tables_;
   std::vector<MixerWeights<kContexts>> mixers_;

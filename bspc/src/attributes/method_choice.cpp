@@ -12,7 +12,7 @@ double estimate(const Candidate& candidate, std::size_t points, std::size_t samp
   const auto size = static_cast<double>(candidate.write(sample).size());
   const double fixed = std::min(static_cast<double>(candidate.fixedBytes), size);
   const double share = static_cast<double>(points) / static_cast<double>(std::min(sample, points));
-  return candidate.learning * (fixed + (size - fixed) * share);
+  return fixed + (size - fixed) * share;
 }
 
 struct Estimated {
@@ -60,8 +60,9 @@ Bytes smallestPayload(const std::vector<Candidate>& candidates, std::size_t poin
   }
   const std::vector<Estimated> winners = familyWinners(candidates, points, sample);
   for (const Estimated& winner : winners) {
-    if (winner.bytes > kPromising * winners[0].bytes) break;
-    tryAll(*winner.candidate);
+    const bool promising =
+        winner.candidate->learning * winner.bytes <= kPromising * winners[0].bytes;
+    if (promising) tryAll(*winner.candidate);
     if (winnerTakesAll) break;
   }
   return best;

@@ -14,7 +14,7 @@ struct Candidate {
   std::function<Bytes(std::size_t limit)> write;
   /// Bytes of the payload that do not grow with the points.
   std::size_t fixedBytes = 0;
-  /// Methods that learn much look worse on a sample than they are.
+  /// Methods that learn much look worse on a sample than they are: by this factor.
   double learning = 1;
   /// Ways of one family differ little: only the best of a family on the sample is tried on all
   /// points.

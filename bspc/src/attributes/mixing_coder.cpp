@@ -20,8 +20,11 @@ constexpr unsigned kNodes = 256;
 /// one. Sixteen neighbouring nodes of a context share a line of its table.
 class NodeTables {
  public:
-  NodeTables() {
-    for (auto& table : tables_) table.resize(std::size_t{kLines} * kLine);
+  /// Tables for that many values.
+  explicit NodeTables(std::uint64_t values) {
+    const unsigned bits = std::clamp(entropy::bitLength(values) + 1, kLeastBits, kMostBits);
+    mask_ = (1U << bits) - 1;
+    for (auto& table : tables_) table.resize((std::size_t{mask_} + 1) * kLine);
   }
 
   void select(unsigned context, std::uint32_t value, unsigned slot) {
@@ -34,7 +37,7 @@ class NodeTables {
   std::array<ContextBit*, kContexts> at(unsigned node) {
     std::array<ContextBit*, kContexts> bits;
     for (unsigned c = 0; c < kContexts; ++c) {
-      const std::uint32_t line = (selected_[c] + (node / kLine) * 0x9E5U) % kLines;
+      const std::uint32_t line = (selected_[c] + (node / kLine) * 0x9E5U) & mask_;
       bits[c] = &tables_[c][std::size_t{line} * kLine + node % kLine];
     }
     return bits;
@@ -42,7 +45,9 @@ class NodeTables {
 
  private:
   static constexpr std::uint32_t kLine = 16;
-  static constexpr std::uint32_t kLines = 1U << 14;
+  static constexpr unsigned kLeastBits = 8;
+  static constexpr unsigned kMostBits = 14;
+  std::uint32_t mask_ = 0;
   std::array<std::vector<ContextBit>, kContexts> tables_;
   std::array<std::uint32_t, kContexts> selected_{};
 };
@@ -77,6 +82,7 @@ class MixingCoder {
         components_(components),
         values_(values),
         weights_(points, Predictor::MeanOf8, 0),
+        tables_((points.size() - points.known) * std::uint64_t{components}),
         mixers_(std::size_t{kSlots} * kNodes, MixerWeights<kContexts>(kStartWeight)),
         misses_((points.size() - points.known) * components) {}
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "attributes/cell_map.h"
+
 namespace bspc::attributes {
 
 RankedPoints rankPoints(Span<const GridPoint> points, std::size_t known) {
@@ -10,6 +12,8 @@ RankedPoints rankPoints(Span<const GridPoint> points, std::size_t known) {
   const unsigned cut = bits > kPositionBits ? bits - kPositionBits : 0;
   RankedPoints result;
   result.known = known;
+  result.cut = cut;
+  result.bits = bits;
   result.curve = mortonOrder(points, bits);
   result.indexOfRank.resize(points.size());
   result.positions.resize(points.size());
@@ -30,63 +34,6 @@ RankedPoints rankPoints(Span<const GridPoint> points, std::size_t known) {
 }
 
 namespace {
-
-/// The cells of a tile's points, found by their codes.
-class CellMap {
- public:
-  CellMap(const RankedPoints& points, unsigned shift) : shift_(3 * shift) {
-    const std::size_t size = points.size();
-    for (std::size_t i = 0; i < size; ++i) {
-      const std::uint64_t code = points.curve[i].code >> shift_;
-      if (i == 0 || code != codes_.back()) {
-        codes_.push_back(code);
-        starts_.push_back(static_cast<std::uint32_t>(i));
-      }
-    }
-    filled_ = starts_;
-    members_.resize(size);
-    std::size_t slots = 64;
-    while (slots < 2 * codes_.size()) slots *= 2;
-    slots_.assign(slots, kNone);
-    for (std::size_t c = 0; c < codes_.size(); ++c) {
-      std::size_t slot = slotOf(codes_[c]);
-      while (slots_[slot] != kNone) slot = (slot + 1) & (slots_.size() - 1);
-      slots_[slot] = static_cast<std::uint32_t>(c);
-    }
-  }
-
-  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
-
-  std::size_t size() const { return codes_.size(); }
-  std::uint32_t startOf(std::size_t cell) const { return starts_[cell]; }
-  std::uint64_t code(std::size_t cell) const { return codes_[cell]; }
-  /// The points of a cell that were added so far.
-  Span<const std::uint32_t> members(std::size_t cell) const {
-    return {members_.data() + starts_[cell], std::size_t{filled_[cell]} - starts_[cell]};
-  }
-  void add(std::size_t cell, std::uint32_t rank) { members_[filled_[cell]++] = rank; }
-
-  std::uint32_t find(std::uint64_t code) const {
-    std::size_t slot = slotOf(code);
-    while (slots_[slot] != kNone) {
-      if (codes_[slots_[slot]] == code) return slots_[slot];
-      slot = (slot + 1) & (slots_.size() - 1);
-    }
-    return kNone;
-  }
-
- private:
-  std::size_t slotOf(std::uint64_t code) const {
-    return static_cast<std::size_t>((code * 0x9E3779B97F4A7C15ULL) >> 32) & (slots_.size() - 1);
-  }
-
-  unsigned shift_;
-  std::vector<std::uint64_t> codes_;
-  std::vector<std::uint32_t> starts_;   ///< of a cell among the points along the curve
-  std::vector<std::uint32_t> filled_;   ///< end of its members so far
-  std::vector<std::uint32_t> members_;  ///< ranks, ascending in each cell
-  std::vector<std::uint32_t> slots_;
-};
 
 /// A cell and those around it.
 struct Surroundings {
@@ -178,7 +125,7 @@ NeighbourTable::NeighbourTable(const RankedPoints& points, unsigned limit, unsig
   const std::size_t added = points.size() - points.known;
   ranks_.resize(added * limit);
   counts_.resize(added);
-  CellMap map(points, cellShift(points.curve, mean));
+  CellMap map(points.curve, cellShift(points.curve, mean));
   if (known_ > 0) {
     for (std::size_t cell = 0, place = 0; place < points.size(); ++place) {
       while (cell + 1 < map.size() && map.startOf(cell + 1) <= place) ++cell;

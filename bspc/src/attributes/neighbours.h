@@ -15,6 +15,8 @@ namespace bspc::attributes {
 /// new ones, both along the Morton curve. The place in that order is a point's rank.
 struct RankedPoints {
   std::size_t known = 0;
+  unsigned bits = 0;  ///< of the greatest coordinate
+  unsigned cut = 0;   ///< bits that positions are without
   std::vector<std::uint32_t> indexOfRank;
   /// By rank; coordinates of more than 30 bits without the lowest, so that squared distances fit
   /// 64 bits.
@@ -54,7 +56,7 @@ class NeighbourTable {
 
   /// Bytes that a table takes, and making it.
   static std::uint64_t bytesFor(std::uint64_t points, unsigned limit) {
-    constexpr std::uint64_t kWhileMade = 24;
+    constexpr std::uint64_t kWhileMade = 32;
     return points * (4ULL * limit + 1 + kWhileMade);
   }
 

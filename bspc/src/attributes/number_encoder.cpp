@@ -24,6 +24,7 @@ int zstdLevel(unsigned effort) {
 /// Ways that are compared with each other first.
 enum Family : std::uint8_t {
   kBytesFamily,
+  kInputBytesFamily,
   kQuickFamily,
   kResidualFamily,
   kMixingFamily,
@@ -256,8 +257,8 @@ class NumberEncoder {
   // Method Categories.
 
   /// Escapes cost as much as plain words; an alphabet is of use if they are not too many.
-  static bool isUseful(const CategoryAlphabet& alphabet, const std::vector<Word>& words,
-                       std::vector<std::uint64_t>& escaped, std::vector<std::uint8_t>& symbols) {
+  static bool assign(const CategoryAlphabet& alphabet, const std::vector<Word>& words,
+                     std::vector<std::uint64_t>& escaped, std::vector<std::uint8_t>& symbols) {
     symbols.resize(words.size());
     std::vector<std::pair<std::uint64_t, std::uint8_t>> index;
     for (std::size_t s = 0; s < alphabet.words.size(); ++s) {
@@ -281,12 +282,15 @@ class NumberEncoder {
   void addCategories(const CategorySettings& settings, const CategoryAlphabet& alphabet,
                      CategoryColumn column) {
     constexpr double kLearning = 0.95;
+    // A sample along the input and one along the curve are hard to compare.
+    constexpr double kElsewhere = 0.6;
     container::ByteWriter head;
     writeMethod(ArrayMethod::Categories, head);
     head.u8(packed(settings, alphabet.escapes));
     head.u8(static_cast<unsigned>(alphabet.words.size()));
     for (const std::uint64_t word : alphabet.words) head.unsignedLittle(word, sizeof(Word));
-    add(settings.inputOrder ? kInputFamily : kSpatialFamily, kLearning, head.size(),
+    add(settings.inputOrder ? kInputFamily : kSpatialFamily,
+        settings.inputOrder ? kElsewhere : kLearning, head.size(),
         [this, alphabet, column = std::move(column), start = head.data()](std::size_t limit) {
           CategoryColumn part = column;
           part.end = part.first + std::min(limit, points_.added());
@@ -306,7 +310,7 @@ class NumberEncoder {
     column.first = points_.known();
     column.neighbours = &points_.neighbours(neighboursOf(Predictor::MeanOf3), budget_);
     std::vector<std::uint64_t> unknown;  // words of known points may have no symbol
-    isUseful(alphabet, words, unknown, column.symbols);
+    assign(alphabet, words, unknown, column.symbols);
     addCategories({false, false}, alphabet, std::move(column));
   }
 
@@ -318,7 +322,7 @@ class NumberEncoder {
       const CategoryAlphabet alphabet = categoryAlphabet(words);
       CategoryColumn column;
       column.components = shape_.components;
-      if (!isUseful(alphabet, words, column.escaped, column.symbols)) continue;
+      if (!assign(alphabet, words, column.escaped, column.symbols)) continue;
       addCategories({true, delta}, alphabet, std::move(column));
     }
   }

@@ -100,7 +100,7 @@ Bytes knownWords(const ArrayShape& shape, const Bytes& numbers, std::size_t know
 
 }  // namespace
 
-EncodedArray encodeQuantised(const ArrayShape& shape, ArrayValues& values, TilePoints& points,
+EncodedArray encodeQuantised(const ArrayShape& shape, TileValues& values, TilePoints& points,
                              const ArrayWishes& wishes) {
   constexpr double kNarrower = 1 - 0x1p-10;  // where rounding pushes errors beyond the bound
   constexpr std::size_t kMostExceptions = 4;

@@ -23,7 +23,7 @@ class ResidualCoder {
         words_(words),
         weights_(points, settings.predictor, settings.stiffness),
         predictor_(settings, words),
-        models_(8 * sizeof(Word)),
+        models_(8 * sizeof(Word), settings.components),
         sizes_((points.size() - points.known) * settings.components),
         negative_(sizes_.size()) {
     for (std::size_t rank = 0; rank < points.known; ++rank) predictor_.learn(rank);

@@ -19,12 +19,12 @@ constexpr unsigned halfOctave(std::uint64_t v) {
   const unsigned length = entropy::bitLength(v);
   return 2 * (length - 1) + static_cast<unsigned>((v >> (length - 2)) & 1);
 }
-constexpr unsigned kHalfOctaves = 128;
 
 /// What is known about a residual before it is coded.
 struct ResidualContext {
   unsigned slot = 0;      ///< the component, as far as components have models of their own
-  unsigned expected = 0;  ///< halfOctave of twice the mean size of the neighbours' residuals
+  unsigned expected = 0;  ///< halfOctave of twice the mean size of the neighbours' residuals: at
+                          ///< most twice their bits
   unsigned surprise = 0;  ///< how the component before compared with what was expected: 1 … 7, or 0
   unsigned signs = 0;  ///< of the nearest neighbour's residual and of the component before: 0 … 8
 };
@@ -37,12 +37,12 @@ constexpr unsigned kSlots = 4;
 template <class Coder>
 class ResidualModels {
  public:
-  explicit ResidualModels(unsigned bits)
+  ResidualModels(unsigned bits, std::uint32_t components)
       : bits_(bits),
         treeBits_(entropy::bitLength(bits)),
-        lengths_((std::size_t{kSlots} * kHalfOctaves * kSurprises) << treeBits_),
-        mantissas_(std::size_t{kSlots} * (bits + 1)),
-        signs_(std::size_t{kSlots} * kSignContexts * kSignLengths) {}
+        lengths_((std::size_t{slots(components)} * (2 * bits + 1) * kSurprises) << treeBits_),
+        mantissas_(std::size_t{slots(components)} * (bits + 1)),
+        signs_(std::size_t{slots(components)} * kSignContexts * kSignLengths) {}
 
   /// The size of a residual (up to 2^(bits − 1)) and whether it is negative.
   struct Residual {
@@ -69,9 +69,11 @@ class ResidualModels {
   static constexpr unsigned kModelledBits = 3;
   using Mantissa = std::array<entropy::AdaptiveBit, 1U << kModelledBits>;
 
+  static unsigned slots(std::uint32_t components) { return std::min(components, kSlots); }
+
   unsigned codeLength(Coder& coder, unsigned length, const ResidualContext& context) {
     const std::size_t tree =
-        (std::size_t{context.slot} * kHalfOctaves + context.expected) * kSurprises +
+        (std::size_t{context.slot} * (2 * bits_ + 1) + context.expected) * kSurprises +
         context.surprise;
     entropy::AdaptiveBit* models = lengths_.data() + (tree << treeBits_);
     unsigned node = 1;

@@ -108,7 +108,7 @@ Bytes knownPlaces(ScalarType type, const Bytes& numbers, std::size_t known, unsi
 
 }  // namespace
 
-EncodedArray encodeSphere(const ArrayShape& shape, ArrayValues& values, TilePoints& points,
+EncodedArray encodeSphere(const ArrayShape& shape, TileValues& values, TilePoints& points,
                           const ArrayWishes& wishes) {
   constexpr std::size_t kMostExceptions = 4;
   unsigned bits = OctahedralMap::kMinBits;
