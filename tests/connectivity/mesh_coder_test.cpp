@@ -16,12 +16,12 @@ constexpr std::uint64_t kMemory = std::uint64_t{1} << 28;
 
 std::vector<Mesh> allMeshes() {
   std::vector<Mesh> meshes = test::oddMeshes();
-  meshes.push_back(test::torus(40, 20, true));
-  meshes.push_back(test::torus(40, 20, false));
-  meshes.push_back(test::terrain(1, 20));
-  meshes.push_back(test::remeshedSphere(1, 4));
-  meshes.push_back(test::soup(test::remeshedSphere(2, 3)));
-  meshes.push_back(test::shuffled(test::terrain(2, 15), 9));
+  meshes.push_back(test::torus(24, 12, true));
+  meshes.push_back(test::torus(24, 12, false));
+  meshes.push_back(test::terrain(1, 12));
+  meshes.push_back(test::remeshedSphere(1, 3));
+  meshes.push_back(test::soup(test::remeshedSphere(2, 2)));
+  meshes.push_back(test::shuffled(test::terrain(2, 8), 9));
   return meshes;
 }
 
@@ -93,7 +93,7 @@ TEST_P(MeshCoder, IsSafeOnDamagedPayloads) {
   std::mt19937_64 random(4);
   for (const Mesh& mesh : test::oddMeshes()) {
     const Bytes payload = encodeMesh({mesh.points}, mesh.cells, GetParam()).payload;
-    for (int i = 0; i < 40; ++i) {
+    for (int i = 0; i < 24; ++i) {
       Bytes damaged = payload;
       if (i % 4 == 0) damaged.resize(random() % (damaged.size() + 1));
       for (std::size_t k = 0; k < 1 + static_cast<std::size_t>(i) % 3 && !damaged.empty(); ++k) {
@@ -134,7 +134,7 @@ TEST(MeshCoder, KeepsTheOrderOnRequest) {
 TEST(MeshCoder, IsSafeOnRandomBytes) {
   std::mt19937_64 random(5);
   const Mesh mesh = test::terrain(1, 6);
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < 150; ++i) {
     Bytes bytes(1 + random() % 60);
     for (std::uint8_t& b : bytes) b = static_cast<std::uint8_t>(random());
     bytes[0] &= 0x0F;  // a version that there is

@@ -50,7 +50,7 @@ TEST(VertexIndex, FindsTheNearestOfThoseAwake) {
     VertexIndex index(positions);
     std::vector<bool> awake(positions.size(), true);
     std::vector<Neighbour> found;
-    for (int i = 0; i < 60 && !positions.empty(); ++i) {
+    for (int i = 0; i < 25 && !positions.empty(); ++i) {
       const auto vertex = static_cast<std::uint32_t>(random() % positions.size());
       awake[vertex] = random() % 4 == 0;
       if (awake[vertex]) {

@@ -33,7 +33,7 @@ void CandidateWeights::learn(unsigned gateKind, const std::vector<Candidate>& ca
     const Candidate& c = candidates[i];
     const float error = (i == chosen ? 1.0F : 0.0F) - c.probability;
     if (entropy::magnitude(error) < kSmallError) continue;
-    Weights& w = weights_[gateKind * kKinds + c.kind];
+    Weights& w = weights_[std::size_t{gateKind} * kKinds + c.kind];
     const float step = kRate * error;
     for (unsigned f = 0; f < kFeatures; ++f) w[f] += step * c.feature[f];
   }

@@ -26,7 +26,7 @@ class CandidateWeights {
   CandidateWeights();
 
   const Weights& of(unsigned gateKind, unsigned candidateKind) const {
-    return weights_[gateKind * kKinds + candidateKind];
+    return weights_[std::size_t{gateKind} * kKinds + candidateKind];
   }
   float score(unsigned gateKind, const Candidate& candidate) const {
     const Weights& w = of(gateKind, candidate.kind);
@@ -38,7 +38,7 @@ class CandidateWeights {
   void learn(unsigned gateKind, const std::vector<Candidate>& candidates, std::size_t chosen);
 
  private:
-  std::array<Weights, kGateKinds * kKinds> weights_;
+  std::array<Weights, std::size_t{kGateKinds} * kKinds> weights_;
 };
 
 }  // namespace bspc::connectivity

@@ -38,9 +38,8 @@ unsigned cotangentClass(float cotangent) {
 /// What a gate and its kind multiply the contexts of candidates by.
 constexpr std::size_t kStages = std::size_t{kPlaces} * kKinds * kGateKinds;
 /// Contexts of each of the ten sorts in gatherCandidate, without the stages.
-constexpr std::array<std::size_t, 10> kContextSizes{
-    20, 8 * 4, 7 * 6 * 3, 10 * 10 * 10, 8 * 5, 5 * 4 * 3, 7 * 8 * 4, 27 * 10, 8 * 6 * 4, 7 * 8 * 8};
-constexpr std::array<std::size_t, 3> kBorderContextSizes{3 * 8, 8 * 4 * 3 * 4, 8 * 3 * 4 * 3};
+constexpr std::array<unsigned, 10> kContextSizes{20, 32, 126, 1000, 40, 60, 224, 270, 192, 448};
+constexpr std::array<unsigned, 3> kBorderContextSizes{24, 384, 288};
 
 }  // namespace
 

@@ -70,13 +70,13 @@ class GateSymbols {
     history_[0] = static_cast<unsigned>(std::min<std::size_t>(place, 2));
   }
 
+  entropy::Evidence evidence_;
   std::array<std::vector<entropy::Counter>, kContexts> contexts_;
   std::array<std::vector<entropy::Counter>, kBorderContexts> borderContexts_;
   Mixer candidate_;
   Mixer border_;
-  entropy::Evidence evidence_;
-  Mixer::Selection selection_{};
   std::vector<entropy::Counter*> used_;
+  Mixer::Selection selection_{};
   std::array<unsigned, 3> history_{};  ///< places of the last vertices, at most 2
   unsigned recentBorder_ = 0;
   bool anyBorder_ = false;
