@@ -70,6 +70,8 @@ struct ChunkWriter {
   RansWriter fields;
   BitWriter raw;
 
+  explicit ChunkWriter(std::size_t points) : gaps(points), residuals(points) {}
+
   std::uint64_t field(Field which, std::uint64_t value) {
     const unsigned symbol = kFieldCode.symbolOf(value);
     fields.symbol(which, symbol);

@@ -21,6 +21,11 @@ inline std::uint64_t loadLittle64(const std::uint8_t* p) {
   return value;
 }
 
+inline void storeLittle16(std::uint8_t* p, std::uint32_t value) {
+  p[0] = static_cast<std::uint8_t>(value);
+  p[1] = static_cast<std::uint8_t>(value >> 8);
+}
+
 inline void storeLittle64(std::uint8_t* p, std::uint64_t value) {
   for (unsigned i = 0; i < 8; ++i) p[i] = static_cast<std::uint8_t>(value >> (8 * i));
 }
