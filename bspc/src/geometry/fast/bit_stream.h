@@ -30,16 +30,29 @@ class BitWriter {
     place_ = place;
   }
 
+  /// Puts `count` fields; field(i, width) returns the value of the i-th and sets its width.
+  template <class Field>
+  void putEach(std::size_t count, const Field& field) {
+    reserve(8 * count);
+    std::uint8_t* bytes = bytes_.data();
+    Place place = place_;
+    for (std::size_t i = 0; i < count; ++i) {
+      unsigned width = 0;
+      const std::uint64_t value = field(i, width);
+      append(place, bytes, value, width);
+    }
+    place_ = place;
+  }
+
   /// The `width` lowest bits of each of `count` values.
   template <class T>
   void putLowBits(const T* values, std::size_t count, unsigned width) {
     if (width == 0) return;
-    reserve(8 * count);
     const std::uint64_t mask = lowBits(width);
-    std::uint8_t* bytes = bytes_.data();
-    Place place = place_;
-    for (std::size_t i = 0; i < count; ++i) append(place, bytes, values[i] & mask, width);
-    place_ = place;
+    putEach(count, [=](std::size_t i, unsigned& fieldWidth) {
+      fieldWidth = width;
+      return std::uint64_t{values[i] & mask};
+    });
   }
 
   /// The shape that BitReader shares, for code that serves both directions.

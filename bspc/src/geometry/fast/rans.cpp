@@ -136,12 +136,13 @@ DecodingTable::DecodingTable(const FrequencyTable& frequencies) {
   }
 }
 
-RansReader::RansReader(const std::uint8_t* data, std::size_t size, unsigned lanes)
-    : lanes_(lanes), at_(data + std::size_t{4} * lanes), end_(data + size) {
+RansReader::RansReader(const std::uint8_t* data, std::size_t size, unsigned lanes, bool vector)
+    : lanes_(lanes), vector_(vector), end_(data + size) {
   if (size < std::size_t{4} * lanes) fail();
+  current_.at = data + std::size_t{4} * lanes;
   for (unsigned lane = 0; lane < lanes; ++lane) {
-    states_[lane] = loadLittle32(data + std::size_t{4} * lane);
-    if (states_[lane] < kRansLow || states_[lane] >= (kRansLow << 16)) {
+    current_.states[lane] = loadLittle32(data + std::size_t{4} * lane);
+    if (current_.states[lane] < kRansLow || current_.states[lane] >= (kRansLow << 16)) {
       throw Error(ErrorCode::Corrupt, "an entropy coded stream starts with an impossible state");
     }
   }
@@ -149,27 +150,15 @@ RansReader::RansReader(const std::uint8_t* data, std::size_t size, unsigned lane
 
 unsigned RansReader::fullRun(const DecodingTable& table, std::size_t count, std::uint8_t* symbols) {
   // Copies of the states may live in registers.
-  std::array<std::uint32_t, kMaxLanes> states = states_;
-  const std::uint8_t* at = at_;
+  RansLanes lanes = current_;
   for (std::size_t i = 0; i < count; i += kMaxLanes) {
     for (unsigned lane = 0; lane < kMaxLanes; ++lane) {
-      symbols[i + lane] = static_cast<std::uint8_t>(step(table, states[lane], at));
+      symbols[i + lane] = static_cast<std::uint8_t>(step(table, lanes.states[lane], lanes.at));
     }
   }
-  states_ = states;
-  at_ = at;
+  current_ = lanes;
   std::uint8_t greatest = 0;
   for (std::size_t i = 0; i < count; ++i) greatest = std::max(greatest, symbols[i]);
-  return greatest;
-}
-
-unsigned RansReader::shortRun(const DecodingTable& table, std::size_t count,
-                              std::uint8_t* symbols) {
-  std::uint8_t greatest = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    symbols[i] = static_cast<std::uint8_t>(step(table, states_[i % lanes_], at_));
-    greatest = std::max(greatest, symbols[i]);
-  }
   return greatest;
 }
 
@@ -179,8 +168,8 @@ void RansReader::fail() {
 }
 
 void RansReader::expectEnd() const {
-  bool asAtStart = at_ == end_;
-  for (unsigned lane = 0; lane < lanes_; ++lane) asAtStart &= states_[lane] == kRansLow;
+  bool asAtStart = current_.at == end_;
+  for (unsigned lane = 0; lane < lanes_; ++lane) asAtStart &= current_.states[lane] == kRansLow;
   if (!asAtStart) {
     throw Error(ErrorCode::Corrupt,
                 "an entropy coded stream does not end with its last symbol: the file is damaged");

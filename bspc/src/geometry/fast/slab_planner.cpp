@@ -127,7 +127,7 @@ std::uint32_t SlabPlanner::build(const Cell& cell, std::uint32_t path, unsigned 
 unsigned SlabPlanner::heightAxis(const PlanNode& node) const {
   const std::uint32_t count = node.last - node.first;
   if (count < 4) return 2;
-  const std::uint32_t step = count >= 128 ? count / 64 : 1;
+  const std::uint32_t step = count >= 64 ? count / 32 : 1;
   float s[3] = {};
   float m[6] = {};
   float n = 0;
@@ -170,7 +170,7 @@ unsigned SlabPlanner::heightAxis(const PlanNode& node) const {
 
 void SlabPlanner::castShadow(PlanNode& node) const {
   const std::uint32_t count = node.last - node.first;
-  const std::uint32_t step = count >= 192 ? count / 96 : 1;
+  const std::uint32_t step = count >= 96 ? count / 48 : 1;
   unsigned shift[3];
   for (unsigned k = 0; k < 3; ++k)
     shift[k] = static_cast<unsigned>(std::max(0, node.cell.levels[k] - 3));
