@@ -4,7 +4,7 @@ set -euo pipefail
 
 build_packages=(
   cmake ninja-build g++ python3 libc6-dev
-  libxxhash-dev libeigen3-dev libcli11-dev liblzf-dev nlohmann-json3-dev
+  libxxhash-dev libzstd-dev libeigen3-dev libcli11-dev liblzf-dev nlohmann-json3-dev
   libgtest-dev libbenchmark-dev
 )
 lint_packages=(clang-format clang-tidy)

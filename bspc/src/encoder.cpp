@@ -24,10 +24,17 @@ void refuseArrays(const PointSetView& points) {
                                           "the arrays out to store the positions");
 }
 
+void refuseUnstored(const EncodeOptions& options) {
+  if (!options.keepOrder && !options.originalIds && options.metadata.empty()) return;
+  throw Error(ErrorCode::Unsupported,
+              "this version stores neither the order of the points nor metadata; leave them out");
+}
+
 }  // namespace
 
 EncodeReport encode(const PointSetView& points, ByteSink& sink, const EncodeOptions& options) {
   refuseArrays(points);
+  refuseUnstored(options);
   planCoding(options, points.size());  // wishes that cannot be met are refused before any work
   ProgressScale fitting(options.progress, 0, kGridShare);
   const ProgressCallback fittingProgress = [&fitting](double share) {

@@ -18,7 +18,7 @@ class VectorReader final : public PointReader {
  public:
   VectorReader(ScalarType type, std::vector<T> xyz) : type_(type), xyz_(std::move(xyz)) {}
   ScalarType type() const override { return type_; }
-  std::size_t read(std::uint8_t* xyz, std::size_t count) override {
+  std::size_t read(std::uint8_t* xyz, Span<ArrayValues> /*values*/, std::size_t count) override {
     // Pieces of odd sizes, as a pipe gives them.
     count = std::min({count, std::size_t{10007}, (xyz_.size() - at_) / 3});
     if (count > 0) std::memcpy(xyz, xyz_.data() + at_, 3 * count * sizeof(T));

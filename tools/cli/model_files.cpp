@@ -85,7 +85,7 @@ void ModelPoints::refuseOther() const {
   if (!positionsOnly_ && !content.empty()) refuseOtherContent(input_.name(), content);
 }
 
-std::size_t ModelPoints::read(std::uint8_t* xyz, std::size_t count) {
+std::size_t ModelPoints::read(std::uint8_t* xyz, Span<ArrayValues> /*values*/, std::size_t count) {
   if (ended_) return 0;
   try {
     const std::size_t got = namingModel(input_.name(), [&] { return stream_->read(xyz, count); });

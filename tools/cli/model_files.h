@@ -27,7 +27,7 @@ class ModelPoints final : public PointReader {
               const ProgressCallback& progress);
 
   ScalarType type() const override { return stream_->info().type; }
-  std::size_t read(std::uint8_t* xyz, std::size_t count) override;
+  std::size_t read(std::uint8_t* xyz, Span<ArrayValues> /*values*/, std::size_t count) override;
   std::uint64_t expected() const override { return stream_->reservable(); }
 
   const formats::ModelInfo& info() const { return stream_->info(); }

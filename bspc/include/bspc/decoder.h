@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "bspc/arrays.h"
 #include "bspc/grid.h"
 #include "bspc/io.h"
 #include "bspc/limits.h"
@@ -32,6 +33,14 @@ struct TileInfo {
   GridPoint upper{};
 };
 
+/// An array of a file.
+struct ArrayInfo : ArrayDescription {
+  std::uint64_t bytes = 0;  ///< payload over all tiles
+  /// The finest layer that is needed to have values: 0 if every layer has some, else the last one
+  /// (layers of methods whose representatives are no points of the set carry no arrays).
+  unsigned firstLevel = 0;
+};
+
 /// What a file says about itself; known without decoding any points.
 struct FileInfo {
   unsigned versionMajor = 0;
@@ -45,6 +54,9 @@ struct FileInfo {
   GridPoint upper{};
   std::vector<LayerInfo> layers;
   std::vector<TileInfo> tiles;
+  std::vector<ArrayInfo> arrays;  ///< beside the positions, one tuple a point
+  Metadata metadata;
+  bool keepsOrder = false;  ///< points come back in the order of the input
   /// Layers that are whole in this file; less than layers.size() only in a truncated file that
   /// was opened with allowPartial.
   unsigned wholeLayers = 0;
@@ -60,6 +72,12 @@ struct OpenOptions {
 struct Box {
   std::array<double, 3> lower{};
   std::array<double, 3> upper{};
+};
+
+/// Consecutive tiles of a file, by their index in FileInfo::tiles.
+struct TileRange {
+  std::uint64_t first = 0;
+  std::uint64_t count = 0;
 };
 
 /// What a decoding reads.
@@ -79,16 +97,25 @@ struct DecodeOptions {
   /// Fill DecodedPoints::cellIds with the BSP cell of this level that each point lies in; a level
   /// finer than the decoded one is an error.
   std::optional<unsigned> cellLevel;
+  /// Names of the arrays to decode; the others are not read from disk. Empty: all. A name that the
+  /// file does not have is an error (InvalidArgument).
+  std::optional<std::vector<std::string>> arrays;
   /// Only the points (of a coarse level: the representatives) whose coordinates lie in the box;
   /// only tiles that touch it are read.
   std::optional<Box> box;
+  /// Only these tiles, for callers that share a file out among themselves; a range that the file
+  /// does not have is an error (InvalidArgument). maxPoints is then a bound on these tiles alone.
+  std::optional<TileRange> tiles;
   unsigned threads = 0;  ///< 0: as many as the machine has; the result does not depend on it
   ProgressCallback progress;
 };
 
-/// Decoded points, in the coder's order.
+/// Decoded points, in the coder's order, or in that of the input where the file keeps it.
 struct DecodedPoints {
   std::vector<GridPoint> points;
+  /// The chosen arrays in the order of FileInfo::arrays, one tuple a point; at a level without
+  /// values (ArrayInfo::firstLevel) an array is left out.
+  std::vector<ArrayValues> arrays;
   /// How many points each stands for (1 for all in the last layer); only if asked for.
   std::vector<std::uint64_t> counts;
   /// Only if asked for. Ids are 0-based and consecutive over the file.

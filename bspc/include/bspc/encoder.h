@@ -3,8 +3,10 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "bspc/arrays.h"
 #include "bspc/grid.h"
 #include "bspc/io.h"
 #include "bspc/method.h"
@@ -40,8 +42,20 @@ struct EncodeOptions {
   std::optional<unsigned> stopLevel;
   unsigned layers = 0;  ///< 1 … kMaxLayers; 0: by the number of points, 1 below 4,096
   Layout layout = Layout::Progressive;
+  /// Store the order of the points too, so that decoding returns them (and their arrays) in the
+  /// order of the input. Tiles are then consecutive ranges of it.
+  bool keepOrder = false;
+  /// Add an array "OriginalPointIds" (uint64, Semantic::Ids): each point's index in the input.
+  bool originalIds = false;
+  Metadata metadata;       ///< stored as it is
   bool wantOrder = false;  ///< fill EncodeReport::order
   ProgressCallback progress;
+};
+
+/// What an array takes in a file.
+struct ArrayReport {
+  std::string name;
+  std::uint64_t bytes = 0;  ///< of its payload, over all tiles
 };
 
 /// What was written.
@@ -55,14 +69,16 @@ struct EncodeReport {
   unsigned layers = 1;
   std::uint64_t fileBytes = 0;
   std::uint64_t geometryBytes = 0;  ///< of them, geometry payload
-  bool exact = true;                ///< see GridFit; what a lossy coding adds counts
+  std::uint64_t orderBytes = 0;     ///< of them, the order of the points
+  std::vector<ArrayReport> arrays;
+  bool exact = true;  ///< see GridFit; what a lossy coding adds counts
   std::array<double, 3> maxError{};
   /// Input index of the j-th point that a decoder returns; only if wantOrder.
   std::vector<std::uint64_t> order;
 };
 
-/// Compresses a point set. Throws Error; what was written to the sink by then is to be discarded.
-/// Named arrays are refused (Unsupported) rather than dropped.
+/// Compresses a point set with its arrays. Throws Error; what was written to the sink by then is to
+/// be discarded.
 EncodeReport encode(const PointSetView& points, ByteSink& sink, const EncodeOptions& options = {});
 
 }  // namespace bspc

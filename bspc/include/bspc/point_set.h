@@ -6,25 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "bspc/arrays.h"
 #include "bspc/scalar_type.h"
 #include "bspc/span.h"
 
 namespace bspc {
-
-/// What an array means, where somebody knows: lets readers set normals, colours and so on.
-enum class Semantic : std::uint8_t { None = 0, Normals, Colours, TextureCoordinates, Ids };
-
-/// A named array that somebody else owns: `tuples` tuples of `components` numbers of `type`,
-/// `strideBytes` apart (0: packed).
-struct ArrayView {
-  std::string name;
-  ScalarType type = ScalarType::Float32;
-  std::uint32_t components = 1;
-  std::uint64_t tuples = 0;
-  const void* data = nullptr;
-  std::size_t strideBytes = 0;
-  Semantic semantic = Semantic::None;
-};
 
 /// A point set that somebody else owns: positions of any of the ten numeric types, three numbers a
 /// point, in the units of the data, points `strideBytes` apart (0: packed), and named arrays with

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 
+#include "bspc/arrays.h"
 #include "bspc/encoder.h"
 #include "bspc/io.h"
 #include "bspc/scalar_type.h"
@@ -16,9 +17,12 @@ class PointReader {
  public:
   virtual ~PointReader() = default;
   virtual ScalarType type() const = 0;
-  /// Writes up to `count` points to `xyz`, three packed numbers of type() each; returns how many,
-  /// 0 only at the end.
-  virtual std::size_t read(std::uint8_t* xyz, std::size_t count) = 0;
+  /// The arrays beside the positions; known before the first read and the same from then on.
+  virtual const std::vector<ArrayDescription>& arrays() const;
+  /// Writes up to `count` points to `xyz`, three packed numbers of type() each, and appends their
+  /// tuples to `values`, which has one array for each of arrays(); returns how many points, 0 only
+  /// at the end.
+  virtual std::size_t read(std::uint8_t* xyz, Span<ArrayValues> values, std::size_t count) = 0;
   /// Points still to come if that is known, else 0; nothing relies on it.
   virtual std::uint64_t expected() const { return 0; }
 };

@@ -53,7 +53,7 @@ FirstPoints readFirst(PointReader& reader, const StreamOptions& options, Progres
     progress.report(0);
     const std::size_t before = first.bytes.size();
     first.bytes.resize(before + kPiece * pointBytes);
-    const std::size_t got = reader.read(first.bytes.data() + before, kPiece);
+    const std::size_t got = reader.read(first.bytes.data() + before, {}, kPiece);
     first.bytes.resize(before + got * pointBytes);
     if (got == 0) {
       first.ended = true;
@@ -147,7 +147,7 @@ class LargeSetEncoder {
     for (;;) {
       progress_.report(0);
       piece.resize(kPiece * pointBytes);
-      const std::size_t got = reader.read(piece.data(), kPiece);
+      const std::size_t got = reader.read(piece.data(), {}, kPiece);
       if (got == 0) break;
       piece.resize(got * pointBytes);
       set_->append(piece);
@@ -233,10 +233,24 @@ class LargeSetEncoder {
   EncodeReport report_;
 };
 
+/// What is not wired up yet is refused rather than dropped.
+void refuseArrays(const PointReader& points) {
+  if (points.arrays().empty()) return;
+  throw Error(ErrorCode::Unsupported, "the stream has the array \"" + points.arrays()[0].name +
+                                          "\", and this version stores positions only; leave "
+                                          "the arrays out to store the positions");
+}
+
 }  // namespace
+
+const std::vector<ArrayDescription>& PointReader::arrays() const {
+  static const std::vector<ArrayDescription> none;
+  return none;
+}
 
 EncodeReport encodeStream(PointReader& points, ByteSink& sink, const StreamOptions& options) {
   checkOptions(options);
+  refuseArrays(points);
   planCoding(options.encoding, 0);  // wishes that cannot be met are refused before any work
   ProgressScale progress(options.encoding.progress, 0, 1);
   FirstPoints first = readFirst(points, options, progress);
