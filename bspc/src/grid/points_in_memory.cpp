@@ -50,32 +50,36 @@ void forBlocks(const PointSetView& points, Visit visit) {
   visit(block);
 }
 
-/// Calls visit(T()) with the type of the points' numbers.
+/// Calls visit with the points' data as numbers of their type, which need not be aligned.
 template <class Visit>
-auto withType(ScalarType type, Visit visit) {
-  switch (type) {
+auto withNumbers(const PointSetView& points, Visit visit) {
+  const void* data = points.data();
+  switch (points.type()) {
     case ScalarType::Float64:
-      return visit(double());
+      return visit(static_cast<const double*>(data));
     case ScalarType::Int8:
-      return visit(std::int8_t());
+      return visit(static_cast<const std::int8_t*>(data));
     case ScalarType::UInt8:
-      return visit(std::uint8_t());
+      return visit(static_cast<const std::uint8_t*>(data));
     case ScalarType::Int16:
-      return visit(std::int16_t());
+      return visit(static_cast<const std::int16_t*>(data));
     case ScalarType::UInt16:
-      return visit(std::uint16_t());
+      return visit(static_cast<const std::uint16_t*>(data));
     case ScalarType::Int32:
-      return visit(std::int32_t());
+      return visit(static_cast<const std::int32_t*>(data));
     case ScalarType::UInt32:
-      return visit(std::uint32_t());
+      return visit(static_cast<const std::uint32_t*>(data));
     case ScalarType::Int64:
-      return visit(std::int64_t());
+      return visit(static_cast<const std::int64_t*>(data));
     case ScalarType::UInt64:
-      return visit(std::uint64_t());
+      return visit(static_cast<const std::uint64_t*>(data));
     default:
-      return visit(float());  // PointSetView has no other types
+      return visit(static_cast<const float*>(data));  // PointSetView has no other types
   }
 }
+
+template <class Pointer>
+using TypeOf = std::remove_cv_t<std::remove_pointer_t<Pointer>>;
 
 template <class T>
 bool finiteAs(const PointSetView& points) {
@@ -176,16 +180,21 @@ bool allFinite(const PointSetView& points) {
 }
 
 Ranges rangesInMemory(const PointSetView& points) {
-  return withType(points.type(), [&](auto t) { return rangesAs<decltype(t)>(points); });
+  return withNumbers(
+      points, [&](const auto* numbers) { return rangesAs<TypeOf<decltype(numbers)>>(points); });
 }
 
 std::optional<std::uint64_t> wholeDivisor(const PointSetView& points, std::size_t axis) {
-  return withType(points.type(), [&](auto t) { return divisorAs<decltype(t)>(points, axis); });
+  return withNumbers(points, [&](const auto* numbers) {
+    return divisorAs<TypeOf<decltype(numbers)>>(points, axis);
+  });
 }
 
 void wholeIndices(const PointSetView& points, std::uint64_t first, std::size_t count,
                   const std::array<WholeAxis, 3>& axes, GridPoint* out) {
-  withType(points.type(), [&](auto t) { indicesAs<decltype(t)>(points, first, count, axes, out); });
+  withNumbers(points, [&](const auto* numbers) {
+    indicesAs<TypeOf<decltype(numbers)>>(points, first, count, axes, out);
+  });
 }
 
 }  // namespace bspc::lattice

@@ -69,7 +69,7 @@ __attribute__((target("avx2,popcnt"))) unsigned vectorRun(const std::uint32_t* e
             _mm_loadl_epi64(reinterpret_cast<const __m128i*>(kShares[mask].data()))));
     const __m256i refilled = _mm256_or_si256(_mm256_slli_epi32(next, 16), words);
     states = _mm256_blendv_epi8(next, refilled, needy);
-    at += 2 * _mm_popcnt_u32(mask);
+    at += std::size_t{2} * static_cast<unsigned>(_mm_popcnt_u32(mask));
     const __m256i bytes = _mm256_shuffle_epi8(entry, firstBytes);
     const __m128i eight =
         _mm_unpacklo_epi32(_mm256_castsi256_si128(bytes), _mm256_extracti128_si256(bytes, 1));
