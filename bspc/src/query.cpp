@@ -27,6 +27,19 @@ unsigned finestLevel(const container::ContainerReader& file, const DecodeOptions
   return options.level.value_or(std::max(file.wholeLayers(), 1U) - 1);
 }
 
+/// The tiles that may be read at all.
+TileRange tileRange(const container::ContainerReader& file, const DecodeOptions& options) {
+  const std::uint64_t all = file.tiles().size();
+  if (!options.tiles) return {0, all};
+  if (options.tiles->first > all || options.tiles->count > all - options.tiles->first) {
+    throw Error(ErrorCode::InvalidArgument,
+                std::to_string(options.tiles->count) + " tiles from number " +
+                    std::to_string(options.tiles->first) + " on were asked for; the file has " +
+                    std::to_string(all));
+  }
+  return *options.tiles;
+}
+
 std::uint64_t pointsOf(const container::ContainerReader& file,
                        const std::vector<std::size_t>& tiles, unsigned level) {
   std::uint64_t points = 0;
@@ -80,7 +93,8 @@ Query planQuery(const container::ContainerReader& file, const DecodeOptions& opt
   Query query;
   query.level = finestLevel(file, options);
   if (options.box) query.filter.emplace(file.head().grid, *options.box);
-  for (std::size_t i = 0; i < file.tiles().size(); ++i) {
+  const TileRange range = tileRange(file, options);
+  for (std::size_t i = range.first; i < range.first + range.count; ++i) {
     const container::TileRecord& tile = file.tiles()[i];
     GridPoint upper = tile.lower;
     for (std::size_t k = 0; k < 3; ++k) upper[k] += tile.extent[k];
@@ -109,8 +123,8 @@ Query planQuery(const container::ContainerReader& file, const DecodeOptions& opt
   query.arrays = chosenArrays(file, options);
   if (query.level < firstArrayLevel(file)) query.arrays.clear();
   query.inputOrder = file.head().keepsOrder && query.level + 1 == file.head().layers;
-  query.complete =
-      query.level + 1 == file.head().layers && !file.tilesMissing() && !query.filter && !query.thin;
+  query.complete = query.level + 1 == file.head().layers && !file.tilesMissing() && !query.filter &&
+                   !query.thin && range.count == file.tiles().size();
   return query;
 }
 

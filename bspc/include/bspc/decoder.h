@@ -75,6 +75,12 @@ struct Box {
   std::array<double, 3> upper{};
 };
 
+/// Consecutive tiles of a file, by their index in FileInfo::tiles.
+struct TileRange {
+  std::uint64_t first = 0;
+  std::uint64_t count = 0;
+};
+
 /// What a decoding reads.
 struct QueryCost {
   std::uint64_t tiles = 0;
@@ -98,6 +104,9 @@ struct DecodeOptions {
   /// Only the points (of a coarse level: the representatives) whose coordinates lie in the box;
   /// only tiles that touch it are read.
   std::optional<Box> box;
+  /// Only these tiles, for callers that share a file out among themselves; a range that the file
+  /// does not have is an error (InvalidArgument). maxPoints is then a bound on these tiles alone.
+  std::optional<TileRange> tiles;
   unsigned threads = 0;  ///< 0: as many as the machine has; the result does not depend on it
   ProgressCallback progress;
 };
