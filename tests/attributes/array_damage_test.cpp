@@ -39,11 +39,11 @@ Bytes damaged(const Bytes& payload, std::mt19937_64& random) {
 
 /// Any bytes give an error of the expected kinds, or values for all points.
 void expectSafe(const ArrayShape& shape, const Bytes& payload, const std::vector<GridPoint>& points,
-                const std::vector<std::uint32_t>& order, const TileValues& known,
+                const std::vector<std::uint32_t>& order, const ArrayValues& known,
                 std::size_t knownTuples) {
   TilePoints tile(points, knownTuples);
   if (!order.empty()) tile.setInputOrder(order);
-  TileValues values = known;
+  ArrayValues values = known;
   try {
     decodeArray(shape, payload, tile, kLimit, values);
     const std::size_t count = points.size() * shape.components;
@@ -72,13 +72,13 @@ TEST(ArrayDamage, MutatedPayloadsAreErrorsOrValues) {
         const bool useOrder = effort == 6;
         const std::vector<std::uint32_t> newOrder(order.begin() + 50, order.end());
         if (useOrder) tile.setInputOrder(newOrder);
-        TileValues values = array.values;
+        ArrayValues values = array.values;
         ArrayWishes wishes;
         wishes.effort = effort;
         wishes.maxError = loss;
         wishes.maxAngle = 10 * loss;
         const Bytes payload = encodeArray(array.shape, values, tile, wishes).payload;
-        const TileValues known = test::firstTuples(array, 50);
+        const ArrayValues known = test::firstTuples(array, 50);
         for (unsigned i = 0; i < 40; ++i) {
           expectSafe(array.shape, damaged(payload, random), points,
                      useOrder ? newOrder : std::vector<std::uint32_t>{}, known, 50);
@@ -109,7 +109,7 @@ TEST(ArrayDamage, RandomBytesBehindEveryMethodAreErrorsOrValues) {
 TEST(ArrayDamage, TheOrderOfTheInputIsAskedFor) {
   const std::vector<GridPoint> points = test::scannedSphere(23, 20, 2000);
   TilePoints tile(points);
-  TileValues values;
+  ArrayValues values;
   const Bytes payload{1, 1, 0, 7};  // method Bytes in the order of the input, equal bytes
   const ArrayShape shape{ScalarType::UInt8, 1, Semantic::None};
   try {

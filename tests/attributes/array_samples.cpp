@@ -13,7 +13,7 @@ namespace bspc::test {
 namespace {
 
 using attributes::ArrayShape;
-using attributes::TileValues;
+using attributes::ArrayValues;
 
 template <class T>
 void append(Bytes& bytes, T value) {
@@ -150,8 +150,8 @@ std::vector<SampleArray> sampleArrays(const std::vector<GridPoint>& points, std:
   return arrays;
 }
 
-TileValues reordered(const SampleArray& array, const std::vector<std::uint32_t>& order) {
-  TileValues result;
+ArrayValues reordered(const SampleArray& array, const std::vector<std::uint32_t>& order) {
+  ArrayValues result;
   const std::size_t components = array.shape.components;
   const std::size_t size = array.shape.type == ScalarType::String
                                ? 0
@@ -167,7 +167,7 @@ TileValues reordered(const SampleArray& array, const std::vector<std::uint32_t>&
   return result;
 }
 
-TileValues firstTuples(const SampleArray& array, std::size_t tuples) {
+ArrayValues firstTuples(const SampleArray& array, std::size_t tuples) {
   std::vector<std::uint32_t> order(tuples);
   for (std::size_t i = 0; i < tuples; ++i) order[i] = static_cast<std::uint32_t>(i);
   return reordered(array, order);

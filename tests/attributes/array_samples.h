@@ -11,7 +11,7 @@ namespace bspc::test {
 struct SampleArray {
   std::string name;
   attributes::ArrayShape shape;
-  attributes::TileValues values;
+  attributes::ArrayValues values;
 };
 
 /// Arrays of every type for the points: smooth, noisy, repeated, random, constant ones, and some
@@ -22,9 +22,10 @@ std::vector<SampleArray> sampleArrays(const std::vector<GridPoint>& points, std:
 SampleArray sampleNormals(const std::vector<GridPoint>& points);
 
 /// The tuples of the points order[0], order[1], …
-attributes::TileValues reordered(const SampleArray& array, const std::vector<std::uint32_t>& order);
+attributes::ArrayValues reordered(const SampleArray& array,
+                                  const std::vector<std::uint32_t>& order);
 
 /// The first `tuples` tuples.
-attributes::TileValues firstTuples(const SampleArray& array, std::size_t tuples);
+attributes::ArrayValues firstTuples(const SampleArray& array, std::size_t tuples);
 
 }  // namespace bspc::test

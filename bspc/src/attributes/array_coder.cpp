@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "attributes/number_coder.h"
 #include "attributes/quantised_numbers.h"
@@ -17,7 +18,7 @@ std::uint64_t expectedCount(const ArrayShape& shape, std::size_t tuples) {
   return std::uint64_t{shape.components} * tuples;
 }
 
-void expectValues(const ArrayShape& shape, const TileValues& values, std::size_t tuples) {
+void expectValues(const ArrayShape& shape, const ArrayValues& values, std::size_t tuples) {
   const bool isString = shape.type == ScalarType::String;
   const std::uint64_t wanted = expectedCount(shape, tuples);
   const std::uint64_t given =
@@ -60,12 +61,12 @@ void expectBits(const container::ByteReader& in, const Bytes& numbers, std::size
 
 }  // namespace
 
-EncodedArray encodeArray(const ArrayShape& shape, TileValues& values, TilePoints& points,
+EncodedArray encodeArray(const ArrayShape& shape, ArrayValues& values, TilePoints& points,
                          const ArrayWishes& wishes) {
   expectValues(shape, values, points.size());
   if (points.added() == 0) return {};
   if (shape.type == ScalarType::String) {
-    return {encodeStrings(shape, values.strings, points, wishes.effort), 0};
+    return encodeStrings(shape, values.strings, points, wishes.effort);
   }
   EncodedArray lossy;
   if (wantsSphere(shape, wishes)) {
@@ -74,12 +75,14 @@ EncodedArray encodeArray(const ArrayShape& shape, TileValues& values, TilePoints
     lossy = encodeQuantised(shape, values, points, wishes);
   }
   if (!lossy.payload.empty()) return lossy;
-  return {encodeNumbers({shape.type, shape.components, 0}, values.numbers, points, wishes.effort),
-          0};
+  Bytes payload =
+      encodeNumbers({shape.type, shape.components, 0}, values.numbers, points, wishes.effort);
+  const bool usesInputOrder = followsInput(payload);
+  return {std::move(payload), 0, usesInputOrder};
 }
 
 void decodeArray(const ArrayShape& shape, ByteView payload, TilePoints& points,
-                 std::uint64_t maxBytes, TileValues& values) {
+                 std::uint64_t maxBytes, ArrayValues& values) {
   expectValues(shape, values, points.known());
   container::ByteReader in(payload, "an array's payload", container::ByteReader::kNoOffset);
   if (points.added() == 0) return in.expectEnd();

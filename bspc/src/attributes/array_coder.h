@@ -20,7 +20,7 @@ struct ArrayShape {
 };
 
 /// The tuples of a tile in memory, in the order of its points.
-struct TileValues {
+struct ArrayValues {
   /// Packed numbers in the machine's (little-endian) form; Bit: a byte a number, 0 or 1.
   Bytes numbers;
   /// String only: components strings a tuple; numbers is empty then.
@@ -43,9 +43,9 @@ struct EncodedArray {
   Bytes payload;
   /// What the loss was: the greatest |restored − given|, or angle in degrees; 0 if lossless.
   double greatestError = 0;
-  /// Whether the payload can be decoded only with TilePoints::setInputOrder; means nothing if the
-  /// encoder had no order either. Files note it, so that readers leave the order on the disk.
-  bool usesInputOrder = true;
+  /// Whether the payload can be decoded only with TilePoints::setInputOrder. Files note it, so that
+  /// readers leave the order on the disk.
+  bool usesInputOrder = false;
 };
 
 /// Codes the tuples of the new points of `points`; those of the known points are known to the
@@ -54,7 +54,7 @@ struct EncodedArray {
 /// layer. Several arrays of a tile share one TilePoints, which is all the state there is.
 ///
 /// Throws Error(InvalidArgument) if the values are not as many as the points.
-EncodedArray encodeArray(const ArrayShape& shape, TileValues& values, TilePoints& points,
+EncodedArray encodeArray(const ArrayShape& shape, ArrayValues& values, TilePoints& points,
                          const ArrayWishes& wishes);
 
 /// Appends the tuples of the new points to `values`, which holds those of the known points.
@@ -63,6 +63,6 @@ EncodedArray encodeArray(const ArrayShape& shape, TileValues& values, TilePoints
 /// Throws Error(Corrupt, Unsupported, LimitExceeded); any bytes are safe. Whether the payload needs
 /// the order of the input (TilePoints::setInputOrder) stands in it; without it Error(Corrupt).
 void decodeArray(const ArrayShape& shape, ByteView payload, TilePoints& points,
-                 std::uint64_t maxBytes, TileValues& values);
+                 std::uint64_t maxBytes, ArrayValues& values);
 
 }  // namespace bspc::attributes

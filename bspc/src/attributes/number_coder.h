@@ -18,6 +18,9 @@ Bytes encodeNumbers(const NumberShape& shape, const Bytes& numbers, TilePoints& 
 void decodeNumbers(const NumberShape& shape, container::ByteReader& in, TilePoints& points,
                    MemoryBudget& budget, Bytes& numbers);
 
+/// Whether decoding what encodeNumbers() wrote needs the order of the input.
+bool followsInput(ByteView payload);
+
 /// Calls f with a value of the unsigned type of so many bytes.
 template <class F>
 auto withWord(std::size_t size, F&& f) {

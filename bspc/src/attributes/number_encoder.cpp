@@ -342,6 +342,14 @@ class NumberEncoder {
 
 }  // namespace
 
+bool followsInput(ByteView payload) {
+  constexpr std::size_t kSettings = 1;
+  if (payload.size() <= kSettings) return false;
+  const auto method = static_cast<ArrayMethod>(payload[0]);
+  return (method == ArrayMethod::Bytes || method == ArrayMethod::Categories) &&
+         (payload[kSettings] & 1) != 0;
+}
+
 Bytes encodeNumbers(const NumberShape& shape, const Bytes& numbers, TilePoints& points,
                     unsigned effort) {
   return withWord(numberSize(shape.type), [&](auto word) {

@@ -29,7 +29,7 @@ constexpr NumberKind numberKind(ScalarType type) {
   }
 }
 
-/// Bytes of a number in TileValues::numbers.
+/// Bytes of a number in ArrayValues::numbers.
 inline std::size_t numberSize(ScalarType type) {
   return type == ScalarType::Bit ? 1 : scalarSize(type);
 }

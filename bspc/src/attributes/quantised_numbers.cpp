@@ -100,7 +100,7 @@ Bytes knownWords(const ArrayShape& shape, const Bytes& numbers, std::size_t know
 
 }  // namespace
 
-EncodedArray encodeQuantised(const ArrayShape& shape, TileValues& values, TilePoints& points,
+EncodedArray encodeQuantised(const ArrayShape& shape, ArrayValues& values, TilePoints& points,
                              const ArrayWishes& wishes) {
   constexpr double kNarrower = 1 - 0x1p-10;  // where rounding pushes errors beyond the bound
   constexpr std::size_t kMostExceptions = 4;
@@ -141,8 +141,9 @@ EncodedArray encodeQuantised(const ArrayShape& shape, TileValues& values, TilePo
   out.u8(static_cast<unsigned>(frame.size));
   found.exceptions.write(out);
   const NumberShape inner{unsignedType(frame.size), shape.components, 0};
-  out.bytes(encodeNumbers(inner, words, points, wishes.effort));
-  return {out.take(), found.greatestError};
+  const Bytes coded = encodeNumbers(inner, words, points, wishes.effort);
+  out.bytes(coded);
+  return {out.take(), found.greatestError, followsInput(coded)};
 }
 
 void decodeQuantised(const ArrayShape& shape, container::ByteReader& in, TilePoints& points,

@@ -9,7 +9,7 @@ namespace bspc::attributes {
 // Method Quantised: floating-point numbers as multiples of a step.
 
 /// An empty payload if the numbers are better coded without loss.
-EncodedArray encodeQuantised(const ArrayShape& shape, TileValues& values, TilePoints& points,
+EncodedArray encodeQuantised(const ArrayShape& shape, ArrayValues& values, TilePoints& points,
                              const ArrayWishes& wishes);
 
 /// Reads what follows the method. Fills in the new tuples of `numbers`, which has its size.

@@ -108,7 +108,7 @@ Bytes knownPlaces(ScalarType type, const Bytes& numbers, std::size_t known, unsi
 
 }  // namespace
 
-EncodedArray encodeSphere(const ArrayShape& shape, TileValues& values, TilePoints& points,
+EncodedArray encodeSphere(const ArrayShape& shape, ArrayValues& values, TilePoints& points,
                           const ArrayWishes& wishes) {
   constexpr std::size_t kMostExceptions = 4;
   unsigned bits = OctahedralMap::kMinBits;
@@ -144,8 +144,9 @@ EncodedArray encodeSphere(const ArrayShape& shape, TileValues& values, TilePoint
   out.u8(bits);
   found.exceptions.write(out);
   const NumberShape inner{unsignedType(size), kPlaceComponents, bits};
-  out.bytes(encodeNumbers(inner, words, points, wishes.effort));
-  return {out.take(), found.greatestAngle};
+  const Bytes coded = encodeNumbers(inner, words, points, wishes.effort);
+  out.bytes(coded);
+  return {out.take(), found.greatestAngle, followsInput(coded)};
 }
 
 void decodeSphere(const ArrayShape& shape, container::ByteReader& in, TilePoints& points,

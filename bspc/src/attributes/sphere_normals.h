@@ -9,7 +9,7 @@ namespace bspc::attributes {
 // Method Sphere: unit vectors as places on an octahedron.
 
 /// An empty payload if the vectors are better coded without loss.
-EncodedArray encodeSphere(const ArrayShape& shape, TileValues& values, TilePoints& points,
+EncodedArray encodeSphere(const ArrayShape& shape, ArrayValues& values, TilePoints& points,
                           const ArrayWishes& wishes);
 
 /// Reads what follows the method. Fills in the new tuples of `numbers`, which has its size.

@@ -89,8 +89,8 @@ void writeIndex(const StringIndex& index, const std::string& s, std::size_t size
 
 }  // namespace
 
-Bytes encodeStrings(const ArrayShape& shape, const std::vector<std::string>& strings,
-                    TilePoints& points, unsigned effort) {
+EncodedArray encodeStrings(const ArrayShape& shape, const std::vector<std::string>& strings,
+                           TilePoints& points, unsigned effort) {
   const std::size_t first = points.known() * shape.components;
   StringIndex index;
   StringList different;
@@ -106,7 +106,7 @@ Bytes encodeStrings(const ArrayShape& shape, const std::vector<std::string>& str
   if (different.size() > all.size() / 2) {
     out.u8(static_cast<unsigned>(StringKind::Each));
     writeList(all, out);
-    return out.take();
+    return {out.take(), 0, false};
   }
   out.u8(static_cast<unsigned>(StringKind::Table));
   out.varint(different.size());
@@ -117,8 +117,9 @@ Bytes encodeStrings(const ArrayShape& shape, const std::vector<std::string>& str
     writeIndex(index, strings[i], size, words.data() + i * size);
   }
   const NumberShape inner{unsignedType(size), shape.components, 0};
-  out.bytes(encodeNumbers(inner, words, points, effort));
-  return out.take();
+  const Bytes coded = encodeNumbers(inner, words, points, effort);
+  out.bytes(coded);
+  return {out.take(), 0, followsInput(coded)};
 }
 
 void decodeStrings(const ArrayShape& shape, container::ByteReader& in, TilePoints& points,

@@ -8,8 +8,8 @@ namespace bspc::attributes {
 
 // Method Strings.
 
-Bytes encodeStrings(const ArrayShape& shape, const std::vector<std::string>& strings,
-                    TilePoints& points, unsigned effort);
+EncodedArray encodeStrings(const ArrayShape& shape, const std::vector<std::string>& strings,
+                           TilePoints& points, unsigned effort);
 
 /// Reads what follows the method. Appends the strings of the new points.
 void decodeStrings(const ArrayShape& shape, container::ByteReader& in, TilePoints& points,
