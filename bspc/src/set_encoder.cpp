@@ -56,8 +56,13 @@ FinishedTile SetEncoder::encodeTile(const tiling::TileCut& cut, std::size_t tile
 void SetEncoder::finish(FinishedTile tile) {
   report_.geometryBytes += tile.geometryBytes;
   report_.orderBytes += tile.orderBytes;
+  const std::size_t hidden = arrays_.source().hidden();
   for (std::size_t a = 0; a < tile.arrayBytes.size(); ++a) {
-    ArrayReport& array = report_.arrays[a];
+    if (a < hidden) {
+      report_.geometryBytes += tile.arrayBytes[a];
+      continue;
+    }
+    ArrayReport& array = report_.arrays[a - hidden];
     array.bytes += tile.arrayBytes[a];
     array.greatestError = std::max(array.greatestError, tile.arrayErrors[a]);
   }
