@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "arrays/order_trial.h"
 #include "lossy_error.h"
 #include "parallel.h"
 
@@ -12,12 +13,20 @@ void SetEncoder::encode(Span<const GridPoint> points, const std::vector<std::uin
                         const PointSetView* original) {
   sourceIndex_ = &sourceIndex;
   original_ = original;
+  considerOrder(points);
   // Points are sorted into tiles by 32-bit indices, so sets beyond that are cut into parts first.
   constexpr std::size_t kPart = std::size_t{1} << 31;
   for (std::size_t first = 0; first < points.size(); first += kPart) {
     const std::size_t count = std::min(kPart, points.size() - first);
     encodePart(first, points.subspan(first, count));
   }
+}
+
+void SetEncoder::considerOrder(Span<const GridPoint> points) {
+  constexpr unsigned kQuickest = 1;
+  const bool named = arrays_.source().size() > arrays_.source().hidden();
+  if (!named || arrays_.keepsOrder() || arrays_.effort() <= kQuickest) return;
+  arrays_.storeOrder(storedOrderPays(points, *sourceIndex_, arrays_.source(), arrays_.effort()));
 }
 
 void SetEncoder::encodePart(std::size_t offset, Span<const GridPoint> points) {
