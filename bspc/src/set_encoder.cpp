@@ -80,6 +80,8 @@ void SetEncoder::finish(FinishedTile tile) {
     addLossyError(*original_, tile.sources, tile.decoded, tile.record.lower, report_);
   }
   if (options_.wantOrder) {
+    // Decoders put points back into the order of the input.
+    if (options_.keepOrder) std::sort(tile.sources.begin(), tile.sources.end());
     report_.order.insert(report_.order.end(), tile.sources.begin(), tile.sources.end());
   }
   writer_.addTile(std::move(tile.record), std::move(tile.chunks));
