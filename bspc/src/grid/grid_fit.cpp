@@ -391,6 +391,8 @@ void requireAboveBases(const Grid& grid, const Ranges& ranges) {
                                             text(ranges[axis].min) +
                                             " lies below the grid that is to be kept as it is");
     }
+    // Floats of a grid of float bits never lie too far above it.
+    if (isFloatGrid(grid)) continue;
     const double top = AxisMap(grid, axis).snap(ranges[axis].max).multiple;
     if (top - static_cast<double>(base) > kMaxIndex) {
       throw Error(ErrorCode::OutOfGrid, std::string("the coordinate ") + "xyz"[axis] + " = " +
