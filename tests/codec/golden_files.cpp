@@ -52,7 +52,7 @@ std::vector<GoldenFile> goldenFiles() {
     const std::string name = methodName(method);
     const auto add = [&](const std::string& what, std::vector<double> xyz, ScalarType type,
                          Layout layout, unsigned layers, const GridRequest& grid) {
-      GoldenFile file{std::string(name).append("_").append(what), std::move(xyz), type, {}};
+      GoldenFile file{std::string(name).append("_").append(what), std::move(xyz), type, {}, {}};
       file.options.method = method;
       file.options.layout = layout;
       file.options.layers = layers;
