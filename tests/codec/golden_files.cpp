@@ -43,7 +43,6 @@ std::vector<GoldenFile> goldenFiles() {
       file.options.layers = layers;
       file.options.grid = grid;
       files.push_back(std::move(file));
-      return &files.back();
     };
     const GridRequest any = GridRequest::automatic();
     add("terrain", terrain(40, 1, 0), ScalarType::Float32, Layout::Progressive, 1, any);
