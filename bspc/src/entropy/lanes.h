@@ -58,7 +58,11 @@ inline Lanes smaller(const Lanes& a, const Lanes& b) { return select(a < b, a, b
 
 /// ((0 + 4) + (2 + 6)) + ((1 + 5) + (3 + 7))
 inline float sum(const Lanes& v) {
-  return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
+  using Half = float __attribute__((vector_size(16)));
+  Half half[2];
+  std::memcpy(half, &v, sizeof half);
+  const Half pairs = half[0] + half[1];
+  return (pairs[0] + pairs[2]) + (pairs[1] + pairs[3]);
 }
 
 inline float least(const Lanes& v) {
