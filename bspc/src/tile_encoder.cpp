@@ -25,14 +25,21 @@ geometry::TileInput describe(Span<const GridPoint> points) {
 
 std::uint64_t checksumInOrder(const geometry::TileInput& tile,
                               const std::vector<std::uint32_t>& order) {
-  std::vector<GridPoint> decoded;
-  decoded.reserve(order.size());
-  for (const std::uint32_t i : order) {
-    GridPoint p = tile.points[i];
-    for (std::size_t k = 0; k < 3; ++k) p[k] -= tile.lower[k];
-    decoded.push_back(p);
+  constexpr std::size_t kPiece = 1024;
+  constexpr std::size_t kAhead = 32;  // points that are fetched while others are taken
+  container::ContentChecksum checksum;
+  std::vector<GridPoint> piece(std::min(kPiece, order.size()));
+  for (std::size_t first = 0; first < order.size(); first += kPiece) {
+    const std::size_t count = std::min(kPiece, order.size() - first);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t later = std::min(first + i + kAhead, order.size() - 1);
+      __builtin_prefetch(&tile.points[order[later]]);
+      const GridPoint& p = tile.points[order[first + i]];
+      piece[i] = {p[0] - tile.lower[0], p[1] - tile.lower[1], p[2] - tile.lower[2]};
+    }
+    checksum.add(Span<const GridPoint>(piece.data(), count));
   }
-  return container::contentChecksum(decoded);
+  return checksum.value();
 }
 
 }  // namespace
