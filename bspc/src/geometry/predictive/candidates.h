@@ -12,6 +12,7 @@
 #include "geometry/predictive/surface.h"
 
 namespace bspc::geometry::predictive {
+inline namespace BSPC_LANE_SET {
 
 /// Predictor: points of meshes and scans continue the pattern of those around them. Pairs and
 /// triples of near points say where: 2a − b, and a + b − c. Those that would come closer than 0.3
@@ -104,4 +105,5 @@ class Candidates {
   std::array<Group, kKinds> group_{};
 };
 
+}  // namespace BSPC_LANE_SET
 }  // namespace bspc::geometry::predictive
