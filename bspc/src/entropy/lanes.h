@@ -15,6 +15,9 @@
 #define BSPC_LANE_SET portable
 #endif
 
+/// Lanes are passed in registers only where functions are truly inline.
+#define BSPC_LANES_INLINE inline __attribute__((always_inline))
+
 namespace bspc::entropy {
 inline namespace BSPC_LANE_SET {
 
@@ -42,12 +45,12 @@ struct IntLanes {
   detail::IntRegister part[detail::kRegisters] = {};
 
   IntLanes() = default;
-  IntLanes(std::int32_t x) {  // NOLINT: a number stands for eight of it
+  BSPC_LANES_INLINE IntLanes(std::int32_t x) {  // NOLINT: a number stands for eight of it
     for (auto& p : part) p = x - detail::IntRegister{};
   }
 
 #define BSPC_LANES_OPERATOR(op)                                                           \
-  friend IntLanes operator op(const IntLanes& a, const IntLanes& b) {                     \
+  BSPC_LANES_INLINE friend IntLanes operator op(const IntLanes& a, const IntLanes& b) {   \
     IntLanes r;                                                                           \
     for (unsigned i = 0; i < detail::kRegisters; ++i) r.part[i] = a.part[i] op b.part[i]; \
     return r;                                                                             \
@@ -56,29 +59,29 @@ struct IntLanes {
   BSPC_LANES_OPERATOR(|)
   BSPC_LANES_OPERATOR(-)
 #undef BSPC_LANES_OPERATOR
-  friend IntLanes operator~(const IntLanes& a) {
+  BSPC_LANES_INLINE friend IntLanes operator~(const IntLanes& a) {
     IntLanes r;
     for (unsigned i = 0; i < detail::kRegisters; ++i) r.part[i] = ~a.part[i];
     return r;
   }
-  friend IntLanes operator>>(const IntLanes& a, int shift) {
+  BSPC_LANES_INLINE friend IntLanes operator>>(const IntLanes& a, int shift) {
     IntLanes r;
     for (unsigned i = 0; i < detail::kRegisters; ++i) r.part[i] = a.part[i] >> shift;
     return r;
   }
-  IntLanes& operator|=(const IntLanes& b) { return *this = *this | b; }
+  BSPC_LANES_INLINE IntLanes& operator|=(const IntLanes& b) { return *this = *this | b; }
 };
 
 struct Lanes {
   detail::FloatRegister part[detail::kRegisters] = {};
 
   Lanes() = default;
-  Lanes(float x) {  // NOLINT: a number stands for eight of it
+  BSPC_LANES_INLINE Lanes(float x) {  // NOLINT: a number stands for eight of it
     for (auto& p : part) p = x - detail::FloatRegister{};
   }
 
 #define BSPC_LANES_OPERATOR(op)                                                           \
-  friend Lanes operator op(const Lanes& a, const Lanes& b) {                              \
+  BSPC_LANES_INLINE friend Lanes operator op(const Lanes& a, const Lanes& b) {            \
     Lanes r;                                                                              \
     for (unsigned i = 0; i < detail::kRegisters; ++i) r.part[i] = a.part[i] op b.part[i]; \
     return r;                                                                             \
@@ -89,7 +92,7 @@ struct Lanes {
   BSPC_LANES_OPERATOR(/)
 #undef BSPC_LANES_OPERATOR
 #define BSPC_LANES_COMPARISON(op)                                                         \
-  friend IntLanes operator op(const Lanes& a, const Lanes& b) {                           \
+  BSPC_LANES_INLINE friend IntLanes operator op(const Lanes& a, const Lanes& b) {         \
     IntLanes r;                                                                           \
     for (unsigned i = 0; i < detail::kRegisters; ++i) r.part[i] = a.part[i] op b.part[i]; \
     return r;                                                                             \
@@ -99,8 +102,8 @@ struct Lanes {
   BSPC_LANES_COMPARISON(>)
   BSPC_LANES_COMPARISON(>=)
 #undef BSPC_LANES_COMPARISON
-  Lanes& operator+=(const Lanes& b) { return *this = *this + b; }
-  Lanes& operator-=(const Lanes& b) { return *this = *this - b; }
+  BSPC_LANES_INLINE Lanes& operator+=(const Lanes& b) { return *this = *this + b; }
+  BSPC_LANES_INLINE Lanes& operator-=(const Lanes& b) { return *this = *this - b; }
 };
 
 /// How many entries arrays of `count` values are padded to.
@@ -108,34 +111,34 @@ constexpr unsigned wholeLanes(std::size_t count) {
   return static_cast<unsigned>((count + kLanes - 1) & ~(kLanes - 1));
 }
 
-inline Lanes load(const float* from) {
+BSPC_LANES_INLINE Lanes load(const float* from) {
   Lanes v;
   std::memcpy(v.part, from, sizeof v.part);
   return v;
 }
 
-inline void store(float* to, const Lanes& v) { std::memcpy(to, v.part, sizeof v.part); }
+BSPC_LANES_INLINE void store(float* to, const Lanes& v) { std::memcpy(to, v.part, sizeof v.part); }
 
-inline std::array<float, kLanes> valuesOf(const Lanes& v) {
+BSPC_LANES_INLINE std::array<float, kLanes> valuesOf(const Lanes& v) {
   std::array<float, kLanes> values{};
   store(values.data(), v);
   return values;
 }
 
-inline IntLanes bitsOf(const Lanes& v) {
+BSPC_LANES_INLINE IntLanes bitsOf(const Lanes& v) {
   IntLanes bits;
   std::memcpy(bits.part, v.part, sizeof v.part);
   return bits;
 }
 
-inline Lanes lanesOf(const IntLanes& bits) {
+BSPC_LANES_INLINE Lanes lanesOf(const IntLanes& bits) {
   Lanes v;
   std::memcpy(v.part, bits.part, sizeof v.part);
   return v;
 }
 
 /// Whole numbers as floating point.
-inline Lanes converted(const IntLanes& numbers) {
+BSPC_LANES_INLINE Lanes converted(const IntLanes& numbers) {
   Lanes v;
   for (unsigned i = 0; i < detail::kRegisters; ++i) {
     v.part[i] = __builtin_convertvector(numbers.part[i], detail::FloatRegister);
@@ -143,20 +146,24 @@ inline Lanes converted(const IntLanes& numbers) {
   return v;
 }
 
-inline Lanes magnitude(const Lanes& v) { return lanesOf(bitsOf(v) & IntLanes(0x7FFFFFFF)); }
+BSPC_LANES_INLINE Lanes magnitude(const Lanes& v) {
+  return lanesOf(bitsOf(v) & IntLanes(0x7FFFFFFF));
+}
 
 /// `a` where the mask is set, `b` elsewhere.
-inline Lanes select(const IntLanes& mask, const Lanes& a, const Lanes& b) {
+BSPC_LANES_INLINE Lanes select(const IntLanes& mask, const Lanes& a, const Lanes& b) {
   return lanesOf((bitsOf(a) & mask) | (bitsOf(b) & ~mask));
 }
 
 /// `v` where the mask is set, 0 elsewhere.
-inline Lanes only(const IntLanes& mask, const Lanes& v) { return lanesOf(bitsOf(v) & mask); }
+BSPC_LANES_INLINE Lanes only(const IntLanes& mask, const Lanes& v) {
+  return lanesOf(bitsOf(v) & mask);
+}
 
-inline Lanes smaller(const Lanes& a, const Lanes& b) { return select(a < b, a, b); }
+BSPC_LANES_INLINE Lanes smaller(const Lanes& a, const Lanes& b) { return select(a < b, a, b); }
 
 /// ((0 + 4) + (2 + 6)) + ((1 + 5) + (3 + 7))
-inline float sum(const Lanes& v) {
+BSPC_LANES_INLINE float sum(const Lanes& v) {
   using Half = float __attribute__((vector_size(16)));
   Half half[2];
   std::memcpy(half, v.part, sizeof half);
@@ -164,7 +171,7 @@ inline float sum(const Lanes& v) {
   return (pairs[0] + pairs[2]) + (pairs[1] + pairs[3]);
 }
 
-inline float least(const Lanes& v) {
+BSPC_LANES_INLINE float least(const Lanes& v) {
   const std::array<float, kLanes> values = valuesOf(v);
   float best = values[0];
   for (const float x : values) best = x < best ? x : best;
@@ -172,7 +179,7 @@ inline float least(const Lanes& v) {
 }
 
 /// Bit i is set where lane i of the mask is.
-inline std::uint32_t maskBits(const IntLanes& mask) {
+BSPC_LANES_INLINE std::uint32_t maskBits(const IntLanes& mask) {
 #if defined(BSPC_LANES_AVX2)
   __m256 bits;
   std::memcpy(&bits, mask.part, sizeof bits);

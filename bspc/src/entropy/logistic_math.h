@@ -51,7 +51,7 @@ inline float naturalLog(float x) {
   return (exponent + log2) * 0.693147181F;
 }
 
-inline Lanes naturalLog(const Lanes& x) {
+BSPC_LANES_INLINE Lanes naturalLog(const Lanes& x) {
   const IntLanes bits = bitsOf(x);
   const Lanes exponent = converted((bits >> 23) - 127);
   const Lanes m = lanesOf((bits & 0x7FFFFF) | 0x3F800000) - 1.0F;
@@ -83,7 +83,7 @@ inline float bell(float t) {
   return floatOf(bitsOf(r) | (bitsOf(t) & 0x80000000U));
 }
 
-inline Lanes bell(const Lanes& t) {
+BSPC_LANES_INLINE Lanes bell(const Lanes& t) {
   const Lanes a = magnitude(t) + t * t;
   const Lanes r = a / (1.0F + a);
   return lanesOf(bitsOf(r) | (bitsOf(t) & INT32_MIN));

@@ -81,7 +81,7 @@ class Candidates {
 
   void propose(const NearPoints& near, Kind kind, float x, float y, float z);
   void proposeAround(const NearPoints& near, unsigned t);
-  std::uint32_t inCell(const Lanes& x, const Lanes& y, const Lanes& z) const {
+  BSPC_LANES_INLINE std::uint32_t inCell(const Lanes& x, const Lanes& y, const Lanes& z) const {
     return entropy::maskBits((entropy::magnitude(x - middle_) <= reach_) &
                              (entropy::magnitude(y - middle_) <= reach_) &
                              (entropy::magnitude(z - middle_) <= reach_));
