@@ -25,6 +25,8 @@ constexpr std::uint64_t kPredictiveTilePoints = 2000000;
 constexpr unsigned kDefaultEffort = 2;
 constexpr unsigned kMaxFastEffort = 4;  ///< method fast up to here, predictive above
 constexpr unsigned kMaxEffort = 9;
+/// For methods without a choice, which are for those who want small files.
+constexpr unsigned kFullArrayEffort = 6;
 
 /// Each layer has a quarter of the next one's representatives.
 unsigned quarteredLayers(std::uint64_t points) {
@@ -102,6 +104,8 @@ CodingPlan planCoding(const EncodeOptions& options, std::uint64_t points) {
   plan.wishes.stopLevel = options.stopLevel;
   plan.wishes.effort =
       options.effort.value_or(id == Method::Predictive ? kMaxEffort : kDefaultEffort);
+  plan.arrayEffort =
+      id == Method::Fast || id == Method::Predictive ? plan.wishes.effort : kFullArrayEffort;
   const std::uint64_t usual = usualTilePoints(id, points);
   plan.tilePoints = std::min(options.tilePoints != 0 ? options.tilePoints : usual, kMaxTilePoints);
   plan.layers = chooseLayers(options, id, points, plan.tilePoints);

@@ -11,6 +11,7 @@
 #include "geometry/predictive/question.h"
 
 namespace bspc::geometry::predictive {
+inline namespace BSPC_LANE_SET {
 
 /// Predictor: which coordinates were used before along an axis, in dyadic intervals of up to 2^12
 /// grid steps. Flat and stepped parts repeat coordinates all over a model.
@@ -75,4 +76,5 @@ class AxisValues {
   std::array<std::vector<std::uint16_t>, 3> seen_;
 };
 
+}  // namespace BSPC_LANE_SET
 }  // namespace bspc::geometry::predictive

@@ -12,6 +12,7 @@
 #include "geometry/predictive/surface.h"
 
 namespace bspc::geometry::predictive {
+inline namespace BSPC_LANE_SET {
 
 /// Predictor: points of meshes and scans continue the pattern of those around them. Pairs and
 /// triples of near points say where: 2a − b, and a + b − c. Those that would come closer than 0.3
@@ -80,7 +81,7 @@ class Candidates {
 
   void propose(const NearPoints& near, Kind kind, float x, float y, float z);
   void proposeAround(const NearPoints& near, unsigned t);
-  std::uint32_t inCell(const Lanes& x, const Lanes& y, const Lanes& z) const {
+  BSPC_LANES_INLINE std::uint32_t inCell(const Lanes& x, const Lanes& y, const Lanes& z) const {
     return entropy::maskBits((entropy::magnitude(x - middle_) <= reach_) &
                              (entropy::magnitude(y - middle_) <= reach_) &
                              (entropy::magnitude(z - middle_) <= reach_));
@@ -104,4 +105,5 @@ class Candidates {
   std::array<Group, kKinds> group_{};
 };
 
+}  // namespace BSPC_LANE_SET
 }  // namespace bspc::geometry::predictive

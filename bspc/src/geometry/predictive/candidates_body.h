@@ -5,6 +5,7 @@
 // Bodies of candidates.h. They are inline so that each build of the coder has its own.
 
 namespace bspc::geometry::predictive {
+inline namespace BSPC_LANE_SET {
 
 /// Calls `visit` with the number of every bit that is set.
 template <class Visit>
@@ -73,7 +74,7 @@ inline void Candidates::proposeAround(const NearPoints& near, unsigned t) {
   const float x = near.x[t];
   const float y = near.y[t];
   const float z = near.z[t];
-  const auto groups = static_cast<unsigned>(entropy::wholeLanes(t + 1));
+  const auto groups = entropy::wholeLanes(t + 1);
   const std::uint32_t before = (1U << t) - 1;
   std::uint32_t pairs = 0;
   for (unsigned i = 0; i < groups; i += entropy::kLanes) {
@@ -188,12 +189,15 @@ inline void Candidates::project(const Surface& surface, float spacing, Group& fr
     y -= height * s.normal[1];
     z -= height * s.normal[2];
     const unsigned lanes = std::min<unsigned>(entropy::kLanes, from.count - i);
-    for (unsigned lane = 0; lane < lanes; ++lane) to.add(x[lane], y[lane], z[lane]);
+    const auto xs = entropy::valuesOf(x);
+    const auto ys = entropy::valuesOf(y);
+    const auto zs = entropy::valuesOf(z);
+    for (unsigned lane = 0; lane < lanes; ++lane) to.add(xs[lane], ys[lane], zs[lane]);
   }
 }
 
 inline void Candidates::spread(const Question& q, Group& group) {
-  const auto padded = static_cast<unsigned>(entropy::wholeLanes(group.count));
+  const auto padded = entropy::wholeLanes(group.count);
   for (unsigned i = group.count; i < padded; ++i) {
     group.place[0][i] = group.place[1][i] = group.place[2][i] = Neighbourhood::kNowhere;
   }
@@ -260,7 +264,7 @@ inline float Candidates::nearestSquare(float px, float py, float pz, float most)
   const Group& group = group_[group_[kProjected].count > 0       ? kProjected
                               : group_[kParallelogram].count > 0 ? kParallelogram
                                                                  : kExtrapolated];
-  Lanes best = entropy::allLanes(most);
+  Lanes best = entropy::Lanes(most);
   for (unsigned i = 0; i < group.count; i += entropy::kLanes) {
     const Lanes dx = entropy::load(group.place[0] + i) - px;
     const Lanes dy = entropy::load(group.place[1] + i) - py;
@@ -270,4 +274,5 @@ inline float Candidates::nearestSquare(float px, float py, float pz, float most)
   return entropy::least(best);
 }
 
+}  // namespace BSPC_LANE_SET
 }  // namespace bspc::geometry::predictive

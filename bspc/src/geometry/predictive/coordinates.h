@@ -7,6 +7,7 @@
 #include "geometry/predictive/question.h"
 
 namespace bspc::geometry::predictive {
+inline namespace BSPC_LANE_SET {
 
 /// Predictor: coordinates of near points tend to come again, and points keep a distance.
 class Coordinates {
@@ -46,7 +47,7 @@ inline void Coordinates::ask(const Question& q, const NearPoints& near, float sp
   const float quarter = 0.25F * q.size[q.axis];
   Sums narrowSums;
   Sums wideSums;
-  Lanes toLower = entropy::allLanes(1e36F);
+  Lanes toLower = entropy::Lanes(1e36F);
   Lanes toUpper = toLower;
   for (unsigned i = 0; i < entropy::wholeLanes(near.count); i += entropy::kLanes) {
     const Lanes place = entropy::load(along + i);
@@ -78,4 +79,5 @@ inline void Coordinates::ask(const Question& q, const NearPoints& near, float sp
   upperDistance = wantDistances ? distanceClass(entropy::least(toUpper) * unit2) : 0;
 }
 
+}  // namespace BSPC_LANE_SET
 }  // namespace bspc::geometry::predictive

@@ -10,6 +10,7 @@
 #include "geometry/predictive/predictors.h"
 
 namespace bspc::geometry::predictive {
+inline namespace BSPC_LANE_SET {
 
 /// Codes how the points of a box are shared out between its halves: makes inputs and contexts of
 /// what the predictors say, and mixes them. All that is learned from decision to decision is here.
@@ -314,4 +315,5 @@ bool DecisionModel::codeShare(Coder& coder, bool reached, const Bisection& b, co
   return shareMixer_.code(coder, reached, e, {depth, depth});
 }
 
+}  // namespace BSPC_LANE_SET
 }  // namespace bspc::geometry::predictive

@@ -8,6 +8,7 @@
 #include "geometry/predictive/question.h"
 
 namespace bspc::geometry::predictive {
+inline namespace BSPC_LANE_SET {
 
 /// Predictor: where more points are around, more are to come.
 class Density {
@@ -23,9 +24,9 @@ class Density {
     const float quarter = 0.25F * q.size[q.axis];
     Lanes lower = {};
     Lanes upper = {};
-    Lanes toLower = entropy::allLanes(1e36F);
+    Lanes toLower = entropy::Lanes(1e36F);
     Lanes toUpper = toLower;
-    const auto whole = static_cast<unsigned>(entropy::wholeLanes(near.count));
+    const auto whole = entropy::wholeLanes(near.count);
     const unsigned count = std::min(whole, most);
     for (unsigned i = 0; i < count; i += entropy::kLanes) {
       const Lanes dx = entropy::load(near.x + i) - q.centre(0);
@@ -50,4 +51,5 @@ class Density {
   }
 };
 
+}  // namespace BSPC_LANE_SET
 }  // namespace bspc::geometry::predictive

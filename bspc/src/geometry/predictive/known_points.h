@@ -4,8 +4,10 @@
 #include <vector>
 
 #include "bspc/grid.h"
+#include "entropy/lanes.h"
 
 namespace bspc::geometry::predictive {
+inline namespace BSPC_LANE_SET {
 
 /// A place that is decoded, and how well it had been predicted: what is to be expected around it.
 struct KnownPoint {
@@ -20,4 +22,5 @@ struct KnownPoint {
 
 using KnownPoints = std::vector<KnownPoint>;
 
+}  // namespace BSPC_LANE_SET
 }  // namespace bspc::geometry::predictive

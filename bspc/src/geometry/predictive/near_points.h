@@ -7,6 +7,7 @@
 #include "geometry/predictive/neighbourhood.h"
 
 namespace bspc::geometry::predictive {
+inline namespace BSPC_LANE_SET {
 
 /// The known points nearest to the cell at hand, those decoded in it added as they come.
 struct NearPoints {
@@ -88,4 +89,5 @@ struct NearPoints {
   }
 };
 
+}  // namespace BSPC_LANE_SET
 }  // namespace bspc::geometry::predictive

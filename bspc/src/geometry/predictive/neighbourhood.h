@@ -5,6 +5,7 @@
 #include "entropy/lanes.h"
 
 namespace bspc::geometry::predictive {
+inline namespace BSPC_LANE_SET {
 
 /// What is known around the cell at hand: single points, and cells that are still to be divided.
 struct Neighbourhood {
@@ -62,4 +63,5 @@ struct Neighbourhood {
   }
 };
 
+}  // namespace BSPC_LANE_SET
 }  // namespace bspc::geometry::predictive

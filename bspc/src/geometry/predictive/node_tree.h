@@ -4,7 +4,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "entropy/lanes.h"
+
 namespace bspc::geometry::predictive {
+inline namespace BSPC_LANE_SET {
 
 /// A cubic cell of the octree.
 struct Node {
@@ -101,4 +104,5 @@ class NodeTree {
   std::vector<Slot> slots_;
 };
 
+}  // namespace BSPC_LANE_SET
 }  // namespace bspc::geometry::predictive

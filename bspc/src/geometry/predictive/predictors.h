@@ -10,6 +10,7 @@
 #include "geometry/predictive/surface_fit.h"
 
 namespace bspc::geometry::predictive {
+inline namespace BSPC_LANE_SET {
 
 /// Everything that predicts, over one neighbourhood. Each predictor is told what is known around
 /// the box, is asked the question, and leaves its evidence (a logit for the upper half) and a class
@@ -160,4 +161,5 @@ inline void Predictors::learn(KnownPoints& known, const GridPoint& position, flo
   candidates.addPoint(points);
 }
 
+}  // namespace BSPC_LANE_SET
 }  // namespace bspc::geometry::predictive

@@ -3,7 +3,10 @@
 #include <array>
 #include <cstdint>
 
+#include "entropy/lanes.h"
+
 namespace bspc::geometry::predictive {
+inline namespace BSPC_LANE_SET {
 
 /// What a decision is about: how the points of a box are shared out between its halves. Places are
 /// in grid steps from the lower corner of the cell at hand; the middle of a grid position is half a
@@ -19,4 +22,5 @@ struct Question {
   float centre(unsigned k) const { return lower[k] + 0.5F * size[k]; }
 };
 
+}  // namespace BSPC_LANE_SET
 }  // namespace bspc::geometry::predictive

@@ -7,6 +7,7 @@
 #include "geometry/predictive/question.h"
 
 namespace bspc::geometry::predictive {
+inline namespace BSPC_LANE_SET {
 
 using Vector3 = std::array<float, 3>;
 
@@ -79,4 +80,5 @@ class Surface {
   void fitQuadric(const Scaled& near, const Vector3& centre, float spacing);
 };
 
+}  // namespace BSPC_LANE_SET
 }  // namespace bspc::geometry::predictive

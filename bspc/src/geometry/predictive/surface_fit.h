@@ -7,6 +7,7 @@
 // Bodies of surface.h. They are inline so that each build of the coder has its own.
 
 namespace bspc::geometry::predictive {
+inline namespace BSPC_LANE_SET {
 
 /// Symmetric 3 × 3 matrix: xx, xy, xz, yy, yz, zz.
 using Symmetric3 = std::array<float, 6>;
@@ -90,7 +91,7 @@ inline void Surface::fit(const Neighbourhood& near, const Vector3& centre, float
   plane.valid = quadric.valid = false;
   if (near.count < 3) return;
   Scaled scaled;
-  scaled.groups = static_cast<unsigned>(entropy::wholeLanes(near.count) / entropy::kLanes);
+  scaled.groups = entropy::wholeLanes(near.count) / unsigned{entropy::kLanes};
   const float unit = 1 / spacing;
   for (unsigned g = 0; g < scaled.groups; ++g) {
     const unsigned i = g * entropy::kLanes;
@@ -213,7 +214,7 @@ inline void Surface::fitQuadric(const Scaled& near, const Vector3& centre, float
     const Lanes a = u[0] * x + u[1] * y + u[2] * z;
     const Lanes b = v[0] * x + v[1] * y + v[2] * z;
     const Lanes height = n[0] * x + n[1] * y + n[2] * z;
-    const Lanes term[6] = {entropy::allLanes(1), a, b, a * a, a * b, b * b};
+    const Lanes term[6] = {entropy::Lanes(1), a, b, a * a, a * b, b * b};
     unsigned t = 0;
     for (unsigned p = 0; p < 6; ++p) {
       const Lanes weighted = weight * term[p];
@@ -234,4 +235,5 @@ inline void Surface::fitQuadric(const Scaled& near, const Vector3& centre, float
   quadric.valid = true;
 }
 
+}  // namespace BSPC_LANE_SET
 }  // namespace bspc::geometry::predictive

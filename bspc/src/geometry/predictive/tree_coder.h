@@ -11,6 +11,7 @@
 #include "geometry/predictive/predictors.h"
 
 namespace bspc::geometry::predictive {
+inline namespace BSPC_LANE_SET {
 
 /// The traversal, for encoder and decoder alike: an octree breadth first, each cell halved across
 /// x, y and z with the number of points in one half coded, until cells have few points; then cell
@@ -433,4 +434,5 @@ void TreeCoder<Coder, Points>::emit(const Box& box, std::uint32_t count) {
   points_.emit(point, count, cell_);
 }
 
+}  // namespace BSPC_LANE_SET
 }  // namespace bspc::geometry::predictive
