@@ -18,9 +18,9 @@ inline namespace BSPC_LANE_SET {
 ///
 /// Beside what TreeCoder needs, `Points` offers
 ///   std::size_t size(), GridPoint at(i)             the points coded so far, in their order
-///   void append(const GridPoint&, index)            the next of them, and what the encoder calls it
-///   void select(std::vector<std::uint32_t>)         the encoder's points that the tree is to code
-///   const GridPoint& input(index)                   an encoder's point
+///   void append(const GridPoint&, index)            the next of them, and what the encoder calls
+///   it void select(std::vector<std::uint32_t>)         the encoder's points that the tree is to
+///   code const GridPoint& input(index)                   an encoder's point
 /// where only the encoder's are meant, the decoder's do nothing.
 template <class Coder, class Points>
 class SetCoder {
@@ -93,8 +93,7 @@ class SetCoder {
     for (const std::uint32_t i : indices) {
       (plane.isOriginal(points_.input(i)) ? originals : others).push_back(i);
     }
-    const std::uint32_t halves =
-        coder.uniform(static_cast<std::uint32_t>(originals.size()), count);
+    const std::uint32_t halves = coder.uniform(static_cast<std::uint32_t>(originals.size()), count);
     std::optional<MirrorPlane> nested;
     if (Coder::kWriting && planes > 1) nested = findMirrorPlane(inputs(originals));
     const std::size_t first = points_.size();
