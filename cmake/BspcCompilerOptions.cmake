@@ -11,9 +11,10 @@ if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
 endif()
 
+# Without -Wpsabi: vectors are passed between inline functions only, so their ABI does not matter.
 add_library(bspc_compiler_options INTERFACE)
 target_compile_options(bspc_compiler_options INTERFACE
-  -Wall -Wextra -Wconversion -Wshadow -ffp-contract=off -fno-fast-math
+  -Wall -Wextra -Wconversion -Wshadow -Wno-psabi -ffp-contract=off -fno-fast-math
   $<$<BOOL:${BSPC_WARNINGS_AS_ERRORS}>:-Werror>
 )
 if(BSPC_SANITIZE)

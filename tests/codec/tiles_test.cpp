@@ -139,6 +139,31 @@ TEST_P(Tiles, BudgetsAreKeptAtOnceAndTileByTile) {
   }
 }
 
+TEST_P(Tiles, RangesOfTilesAddUpToTheWhole) {
+  Decoder decoder = test::open(file_);
+  DecodeOptions options;
+  options.cellLevel = 1;
+  options.level = 1;
+  const DecodedPoints all = decoder.decode(options);
+  const std::uint64_t tiles = decoder.info().tiles.size();
+  DecodedPoints parts;
+  for (const TileRange& range : {TileRange{0, 0}, TileRange{0, 5}, TileRange{5, tiles - 5}}) {
+    options.tiles = range;
+    EXPECT_EQ(decoder.cost(options).tiles, range.count);
+    const DecodedPoints part = decoder.decode(options);
+    EXPECT_FALSE(part.complete);
+    parts.points.insert(parts.points.end(), part.points.begin(), part.points.end());
+    parts.cellIds.insert(parts.cellIds.end(), part.cellIds.begin(), part.cellIds.end());
+  }
+  EXPECT_EQ(parts.points, all.points);
+  EXPECT_EQ(parts.cellIds, all.cellIds);
+  for (const TileRange& range : {TileRange{tiles + 1, 0}, TileRange{0, tiles + 1},
+                                 TileRange{1, tiles}, TileRange{2, ~std::uint64_t{0}}}) {
+    options.tiles = range;
+    EXPECT_THROW(decoder.decode(options), Error);
+  }
+}
+
 TEST_P(Tiles, CountsOfALevelAddUpOverTheTiles) {
   Decoder decoder = test::open(file_);
   for (unsigned level = 0; level < 3; ++level) {

@@ -36,8 +36,8 @@ struct TileInfo {
 /// An array of a file.
 struct ArrayInfo : ArrayDescription {
   std::uint64_t bytes = 0;  ///< payload over all tiles
-  /// The finest layer that is needed to have values: 0 if every layer has some, else the last one
-  /// (layers of methods whose representatives are no points of the set carry no arrays).
+  /// The coarsest level from which on there are values: 0 if every layer has some, the last one if
+  /// layers carry no arrays (those of methods whose representatives are no points of the set).
   unsigned firstLevel = 0;
 };
 
@@ -56,7 +56,8 @@ struct FileInfo {
   std::vector<TileInfo> tiles;
   std::vector<ArrayInfo> arrays;  ///< beside the positions, one tuple a point
   Metadata metadata;
-  bool keepsOrder = false;  ///< points come back in the order of the input
+  bool keepsOrder = false;       ///< points come back in the order of the input
+  std::uint64_t orderBytes = 0;  ///< payload of that order, or of one that helps to code arrays
   /// Layers that are whole in this file; less than layers.size() only in a truncated file that
   /// was opened with allowPartial.
   unsigned wholeLayers = 0;
@@ -72,6 +73,12 @@ struct OpenOptions {
 struct Box {
   std::array<double, 3> lower{};
   std::array<double, 3> upper{};
+};
+
+/// Consecutive tiles of a file, by their index in FileInfo::tiles.
+struct TileRange {
+  std::uint64_t first = 0;
+  std::uint64_t count = 0;
 };
 
 /// What a decoding reads.
@@ -97,6 +104,9 @@ struct DecodeOptions {
   /// Only the points (of a coarse level: the representatives) whose coordinates lie in the box;
   /// only tiles that touch it are read.
   std::optional<Box> box;
+  /// Only these tiles, for callers that share a file out among themselves; a range that the file
+  /// does not have is an error (InvalidArgument). maxPoints is then a bound on these tiles alone.
+  std::optional<TileRange> tiles;
   unsigned threads = 0;  ///< 0: as many as the machine has; the result does not depend on it
   ProgressCallback progress;
 };

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+
+#include "entropy/lanes.h"
+
+namespace bspc::entropy {
+
+// Logarithm, power and the logistic function as polynomials: the same bits on every machine, which
+// those of the C library are not. Good to about 10^-3, which is finer than any model is right.
+
+inline std::uint32_t bitsOf(float x) {
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &x, sizeof bits);
+  return bits;
+}
+
+inline float floatOf(std::uint32_t bits) {
+  float x = 0;
+  std::memcpy(&x, &bits, sizeof x);
+  return x;
+}
+
+/// `x` kept within [low, high]; `low` if it is not a number.
+constexpr float clamped(float x, float low, float high) {
+  return x > low ? (x < high ? x : high) : low;
+}
+
+/// Class 0 … classes − 1 of a number: the whole part of x · scale + offset, kept within.
+inline unsigned classOf(float x, float scale, float offset, unsigned classes) {
+  return static_cast<unsigned>(clamped(x * scale + offset, 0, static_cast<float>(classes - 1)));
+}
+
+inline float magnitude(float x) { return floatOf(bitsOf(x) & 0x7FFFFFFFU); }
+
+/// Natural logarithm of a positive, normal number.
+inline float naturalLog(float x) {
+  const std::uint32_t bits = bitsOf(x);
+  const auto exponent = static_cast<float>(static_cast<std::int32_t>(bits >> 23) - 127);
+  const float m = floatOf((bits & 0x7FFFFFU) | 0x3F800000U) - 1.0F;
+  const float log2 =
+      m * (1.4426950F + m * (-0.7119F + m * (0.4396F + m * (-0.2325F + m * 0.0621F))));
+  return (exponent + log2) * 0.693147181F;
+}
+
+inline Lanes naturalLog(const Lanes& x) {
+  const IntLanes bits = bitsOf(x);
+  const Lanes exponent = __builtin_convertvector((bits >> 23) - 127, Lanes);
+  const Lanes m = lanesOf((bits & 0x7FFFFF) | 0x3F800000) - 1.0F;
+  const Lanes log2 =
+      m * (1.4426950F + m * (-0.7119F + m * (0.4396F + m * (-0.2325F + m * 0.0621F))));
+  return (exponent + log2) * 0.693147181F;
+}
+
+/// 2^x for −100 ≤ x ≤ 100, that of the nearer end beyond.
+inline float exp2(float x) {
+  x = clamped(x, -100, 100);
+  const int whole = static_cast<int>(x < 0 ? x - 1 : x);
+  const float f = x - static_cast<float>(whole);
+  const float p =
+      1 + f * (0.693147F + f * (0.240227F + f * (0.0555041F + f * (0.0096181F + f * 0.0013333F))));
+  return p * floatOf(static_cast<std::uint32_t>(whole + 127) << 23);
+}
+
+/// Twice the binary logarithm of a positive number, rounded down (linear between powers of two).
+inline int halfOctave(float x) { return static_cast<int>(bitsOf(x) >> 22) - 254; }
+
+/// Probability whose logit is `x`: 1 / (1 + e^−x).
+inline float squash(float x) { return 1 / (1 + exp2(-x * 1.44269504F)); }
+
+constexpr unsigned kStretchBits = 12;
+/// kStretch[i]: the logit ln(p / (1 − p)) of p = (i + ½) / 4096.
+extern const std::array<float, (1U << kStretchBits)> kStretch;
+
+/// A bell's distribution function from −1 to 1 with heavy tails: ± (1 − 1 / (1 + |t| + t²)).
+inline float bell(float t) {
+  const float a = magnitude(t) + t * t;
+  const float r = a / (1 + a);
+  return floatOf(bitsOf(r) | (bitsOf(t) & 0x80000000U));
+}
+
+inline Lanes bell(const Lanes& t) {
+  const Lanes a = magnitude(t) + t * t;
+  const Lanes r = a / (1.0F + a);
+  return lanesOf(bitsOf(r) | (bitsOf(t) & static_cast<std::int32_t>(0x80000000U)));
+}
+
+}  // namespace bspc::entropy

@@ -1,0 +1,139 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "entropy/counter.h"
+#include "entropy/lanes.h"
+#include "entropy/logistic_math.h"
+
+namespace bspc::entropy {
+
+/// What is known about one binary decision: a number for each source, in the logistic domain
+/// (ln of the odds of a 1; 0 says nothing). Each position must keep its meaning from one decision
+/// to the next that uses the same weights.
+class Evidence {
+ public:
+  static constexpr unsigned kMaxInputs = 64;
+  static constexpr unsigned kMaxCounters = 32;
+
+  void clear() {
+    inputs_ = 0;
+    counters_ = 0;
+  }
+  /// Numbers beyond ± 8 count as ± 8.
+  void add(float logit) { input_[inputs_++] = clamped(logit, -8, 8); }
+  /// A context's own experience; it learns the decision when that is coded.
+  void add(Counter& counter) {
+    counter_[counters_++] = &counter;
+    input_[inputs_++] = counter.evidence();
+  }
+
+  /// Fills up the last group of lanes; returns how many entries inputs() has then.
+  unsigned pad() {
+    while (inputs_ % kLanes != 0) input_[inputs_++] = 0;
+    return inputs_;
+  }
+  const float* inputs() const { return input_.data(); }
+
+  void learn(bool bit, unsigned maxAge) {
+    for (unsigned i = 0; i < counters_; ++i) counter_[i]->update(bit, maxAge);
+  }
+
+ private:
+  unsigned inputs_ = 0;
+  unsigned counters_ = 0;
+  alignas(32) std::array<float, kMaxInputs> input_{};
+  std::array<Counter*, kMaxCounters> counter_{};
+};
+
+/// How fast weights learn: start · halfLife / (n + halfLife) + floor after n decisions of a set.
+struct MixingRate {
+  float start = 0.02F;
+  float halfLife = 60;
+  float floor = 0.003F;
+};
+
+/// One set of weights for each value of a selector, a small class of situations.
+class WeightSets {
+ public:
+  /// `inputs`: most entries of an Evidence that is mixed.
+  WeightSets(unsigned sets, unsigned inputs, float weight)
+      : stride_(static_cast<unsigned>(wholeLanes(inputs))),
+        weights_(std::size_t{sets} * stride_, weight),
+        seen_(sets, 0) {}
+
+  float* weights(unsigned set) { return weights_.data() + std::size_t{set} * stride_; }
+  float rate(unsigned set, const MixingRate& rate) const {
+    return rate.start * rate.halfLife / (static_cast<float>(seen_[set]) + rate.halfLife) +
+           rate.floor;
+  }
+  void count(unsigned set) {
+    if (seen_[set] < kMaxSeen) ++seen_[set];
+  }
+
+ private:
+  static constexpr std::uint32_t kMaxSeen = 60000;
+
+  unsigned stride_;
+  std::vector<float> weights_;
+  std::vector<std::uint32_t> seen_;
+};
+
+/// Mixes evidence into one probability, and learns from each decision which sources to believe in
+/// which situation (logistic mixing as in Mahoney's PAQ): the logit is a sum of inputs, each
+/// weighted by the sum of one weight of each selected set; one step of gradient descent follows.
+/// It knows nothing of what the inputs mean.
+template <unsigned Selectors>
+class LogisticMixer {
+ public:
+  using Selection = std::array<unsigned, Selectors>;
+
+  /// `sets[i]`: how many values selector i has. The first selector's weights start at `weight`,
+  /// the others' at 0.
+  LogisticMixer(const Selection& sets, unsigned inputs, float weight, const MixingRate& rate,
+                unsigned counterAge)
+      : rate_(rate), counterAge_(counterAge) {
+    sets_.reserve(Selectors);
+    for (unsigned i = 0; i < Selectors; ++i) {
+      sets_.emplace_back(sets[i], inputs, i == 0 ? weight : 0.0F);
+    }
+  }
+
+  /// Codes one decision with a SymbolWriter or SymbolReader.
+  template <class Coder>
+  bool code(Coder& coder, bool bit, Evidence& evidence, const Selection& selected) {
+    const unsigned count = evidence.pad();
+    std::array<float*, Selectors> weights{};
+    for (unsigned i = 0; i < Selectors; ++i) weights[i] = sets_[i].weights(selected[i]);
+    Lanes dot = allLanes(0);
+    for (unsigned j = 0; j < count; j += kLanes) {
+      Lanes weight = load(weights[0] + j);
+      for (unsigned i = 1; i < Selectors; ++i) weight += load(weights[i] + j);
+      dot += weight * load(evidence.inputs() + j);
+    }
+    const float probability = squash(clamped(sum(dot), -11, 11));
+    bit = coder.fixedBit(static_cast<std::uint32_t>(clamped(probability * 65536, 4, 65532)), bit);
+    const float error = (bit ? 1.0F : 0.0F) - probability;
+    const float step = sets_[0].rate(selected[0], rate_) * error;
+    for (unsigned i = 0; i < Selectors; ++i) {
+      // What the sets share is to be learned once: each further one takes half a step.
+      const Lanes scale = allLanes(i == 0 ? step : 0.5F * step);
+      for (unsigned j = 0; j < count; j += kLanes) {
+        store(weights[i] + j, load(weights[i] + j) + scale * load(evidence.inputs() + j));
+      }
+    }
+    sets_[0].count(selected[0]);
+    evidence.learn(bit, counterAge_);
+    return bit;
+  }
+
+ private:
+  std::vector<WeightSets> sets_;
+  MixingRate rate_;
+  unsigned counterAge_;
+};
+
+}  // namespace bspc::entropy
