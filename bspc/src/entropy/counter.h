@@ -46,6 +46,9 @@ class Counter {
     return kStretch[state_ >> (32 - kStretchBits)] * detail::kCounterConfidence[age()];
   }
 
+  /// How much is known, 0 to 1: what evidence() is drawn to 0 by.
+  float confidence() const { return detail::kCounterConfidence[age()]; }
+
   /// Probability of a 1 in units of 2^-16, from 32 to 2^16 − 32: for a coder's fixedBit().
   std::uint32_t probabilityOfOne() const {
     const std::uint32_t p = state_ >> 16;

@@ -65,6 +65,9 @@ class WeightSets {
         weights_(std::size_t{sets} * stride_, weight),
         seen_(sets, 0) {}
 
+  void startWeight(unsigned input, float weight) {
+    for (std::size_t i = input; i < weights_.size(); i += stride_) weights_[i] = weight;
+  }
   float* weights(unsigned set) { return weights_.data() + std::size_t{set} * stride_; }
   float rate(unsigned set, const MixingRate& rate) const {
     return rate.start * rate.halfLife / (static_cast<float>(seen_[set]) + rate.halfLife) +
@@ -101,6 +104,9 @@ class LogisticMixer {
       sets_.emplace_back(sets[i], inputs, i == 0 ? weight : 0.0F);
     }
   }
+
+  /// Another start for the weights of one input in all sets of the first selector.
+  void startWeight(unsigned input, float weight) { sets_[0].startWeight(input, weight); }
 
   /// Codes one decision with a SymbolWriter or SymbolReader.
   template <class Coder>

@@ -1,0 +1,399 @@
+#include "connectivity/connectivity_coder.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <string>
+
+#include "bspc/error.h"
+#include "connectivity/face_order.h"
+#include "connectivity/face_truth.h"
+#include "connectivity/faces_section.h"
+#include "connectivity/mesh_preparation.h"
+#include "connectivity/vertex_cells.h"
+
+namespace bspc::connectivity {
+
+namespace {
+
+using entropy::SymbolReader;
+using entropy::SymbolWriter;
+
+constexpr unsigned kVersion = 0;
+constexpr unsigned kVersionBits = 4;
+constexpr std::uint64_t kMostNumbers = std::numeric_limits<std::uint32_t>::max() - 16;
+/// Steps that differ by more than this along two axes count as differing by this.
+constexpr double kMostAnisotropy = 1048576;
+
+/// Places of points for measuring distances: in steps of the finest axis.
+std::vector<Position> placesOf(const MeshPoints& points) {
+  const double finest = *std::min_element(points.steps.begin(), points.steps.end());
+  std::array<double, 3> scale{};
+  for (std::size_t k = 0; k < 3; ++k)
+    scale[k] = std::min(points.steps[k] / finest, kMostAnisotropy);
+  std::vector<Position> places(points.points.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) places[i][k] = points.points[i][k] * scale[k];
+  }
+  return places;
+}
+
+std::vector<Position> placesOf(const std::vector<Position>& points, const Welding& welding) {
+  std::vector<Position> places(welding.vertices());
+  for (std::uint32_t v = 0; v < places.size(); ++v) places[v] = points[welding.members(v)[0]];
+  return places;
+}
+
+/// What stands in front of everything.
+struct MeshHead {
+  std::uint64_t vertices = 0;
+  std::uint64_t lines = 0;
+  bool faces = false;
+  bool keepOrder = false;
+
+  template <class Coder>
+  void code(Coder& coder) {
+    const std::uint32_t version = coder.raw(kVersion, kVersionBits);
+    if (version != kVersion) {
+      throw Error(ErrorCode::Unsupported, "the cells are coded by version " +
+                                              std::to_string(version) +
+                                              " of their method, which this one does not know");
+    }
+    vertices = codeNumber(coder, vertices);
+    lines = codeNumber(coder, lines);
+    faces = coder.raw(faces ? 1 : 0, 1) != 0;
+    keepOrder = coder.raw(keepOrder ? 1 : 0, 1) != 0;
+  }
+};
+
+void checkCells(const Cells& cells, std::uint64_t points, const char* sort) {
+  if (cells.indices.size() > kMostNumbers) {
+    throw Error(ErrorCode::Unsupported, std::string("the mesh has more than 2^32 corners of ") +
+                                            sort + "; store it in parts");
+  }
+  for (const std::uint32_t i : cells.indices) {
+    if (i < points) continue;
+    throw Error(ErrorCode::InvalidArgument, std::string("one of the ") + sort + " has the point " +
+                                                std::to_string(i) + ", and there are " +
+                                                std::to_string(points));
+  }
+}
+
+class MeshEncoder {
+ public:
+  MeshEncoder(const MeshPoints& points, const MeshCells& cells, const CodingWishes& wishes)
+      : points_(points), cells_(cells), wishes_(wishes), places_(placesOf(points)) {}
+
+  EncodedMesh encode() {
+    MeshHead head{cells_.vertices.size(), cells_.lines.size(), !cells_.faces.empty(),
+                  wishes_.keepOrder};
+    head.code(coder_);
+    if (head.faces) encodeFaces();
+    if (head.lines > 0) encodeLines();
+    if (head.vertices > 0) encodeVertices();
+    result_.payload = coder_.finish();
+    return std::move(result_);
+  }
+
+ private:
+  static void noCheck() {}
+
+  /// About how many bits there are beside the regular faces.
+  static std::size_t priceOf(const PreparedFaces& faces) {
+    return 40 * faces.irregular.size() + 3 * faces.borderEdges;
+  }
+
+  /// Decides whether points at the same place are one vertex, and prepares the faces so.
+  PreparedFaces prepare() {
+    PreparedFaces prepared = prepareFaces(cells_.faces);
+    Welding welding(points_.points);
+    if (welding.trivial()) return prepared;
+    Cells welded = cells_.faces;
+    for (std::uint32_t& i : welded.indices) i = welding.vertexOf(i);
+    PreparedFaces preparedWelded = prepareFaces(welded);
+    if (priceOf(preparedWelded) >= priceOf(prepared)) return prepared;
+    welding_.emplace(std::move(welding));
+    return preparedWelded;
+  }
+
+  void encodeFaces() {
+    PreparedFaces prepared = prepare();
+    sortIrregular(prepared);
+    FacesHead head;
+    head.regular = prepared.regular.size();
+    head.irregular = prepared.irregular.size();
+    head.welded = welding_.has_value();
+    head.flips = prepared.anyFlipped;
+    for (const std::uint32_t i : prepared.regular) {
+      head.triangles = head.triangles && prepared.faces[i].size() == 3;
+    }
+    head.surestFirst = wishes_.effort > 4;
+    head.neighbours = wishes_.effort > 4 ? 12 : 6;
+    head.code(coder_);
+
+    const std::vector<Position> places =
+        welding_ ? placesOf(places_, *welding_) : std::vector<Position>();
+    const Span<const Position> positions = welding_ ? places : places_;
+    FaceTruth truth(prepared.faces, prepared.flipped, prepared.regular, positions.size());
+    Cells irregular;
+    for (const std::uint32_t i : prepared.irregular) irregular.add(prepared.faces[i]);
+    FacesSection<SymbolWriter, FaceTruth> section(coder_, head, positions);
+    section.codeVertices(truth, irregular, [](std::size_t) {});
+    if (welding_) encodeCorners(section.front(), prepared, truth);
+    std::vector<std::uint32_t> order = truth.order();
+    order.insert(order.end(), prepared.irregular.begin(), prepared.irregular.end());
+    if (wishes_.keepOrder) {
+      encodeOrder(order, truth.firstCorners(), prepared.flipped);
+    } else {
+      result_.faceOrder = std::move(order);
+    }
+  }
+
+  /// `order`: the faces as they were coded; `firstCorners`: of the regular ones, where that began.
+  void encodeOrder(const std::vector<std::uint32_t>& order,
+                   const std::vector<std::uint32_t>& firstCorners,
+                   const std::vector<std::uint8_t>& flipped) {
+    const Cells& given = cells_.faces;
+    Cells coded;
+    std::vector<std::uint32_t> places(order.size());
+    std::vector<std::uint32_t> starts(order.size(), 0);
+    std::vector<std::uint32_t> face;
+    for (std::uint32_t k = 0; k < order.size(); ++k) {
+      const std::uint32_t i = order[k];
+      face.assign(given[i].begin(), given[i].end());
+      places[i] = k;
+      if (k < firstCorners.size()) {
+        // Turned around and back again, a face that was begun at its corner j ends there.
+        const auto size = static_cast<std::uint32_t>(face.size());
+        const std::uint32_t begun = firstCorners[k] - given.first(i);
+        const std::uint32_t first = flipped[i] != 0 ? size - begun : begun;
+        std::rotate(face.begin(), face.begin() + first % size, face.end());
+        starts[i] = (size - first) % size;
+      }
+      coded.add(face);
+    }
+    FaceOrder<SymbolWriter>(coder_, coded).code(places, starts);
+  }
+
+  /// Irregular faces keep their sense, and are coded by their vertices.
+  static void sortIrregular(PreparedFaces& prepared) {
+    for (const std::uint32_t i : prepared.irregular) {
+      if (prepared.flipped[i] != 0) {
+        std::reverse(prepared.faces.indices.begin() + prepared.faces.first(i),
+                     prepared.faces.indices.begin() + prepared.faces.ends[i]);
+      }
+      prepared.flipped[i] = 0;
+    }
+    std::sort(prepared.irregular.begin(), prepared.irregular.end(),
+              [&](std::uint32_t a, std::uint32_t b) {
+                const Span<const std::uint32_t> x = prepared.faces[a];
+                const Span<const std::uint32_t> y = prepared.faces[b];
+                if (std::equal(x.begin(), x.end(), y.begin(), y.end())) return a < b;
+                return std::lexicographical_compare(x.begin(), x.end(), y.begin(), y.end());
+              });
+  }
+
+  /// Which points the corners of welded vertices are.
+  void encodeCorners(const AdvancingFront& front, const PreparedFaces& prepared,
+                     const FaceTruth& truth) {
+    Cells faces = cells_.faces;
+    for (std::uint32_t i = 0; i < faces.size(); ++i) {
+      if (prepared.flipped[i] == 0) continue;
+      std::reverse(faces.indices.begin() + faces.first(i), faces.indices.begin() + faces.ends[i]);
+    }
+    CornerSplit<SymbolWriter> split(coder_, *welding_, wishes_.mayRenumber);
+    std::vector<std::uint32_t> points;
+    for (std::size_t k = 0; k < truth.order().size(); ++k) {
+      const std::uint32_t i = truth.order()[k];
+      const Span<const std::uint32_t> face = faces[i];
+      const std::size_t start = truth.firstCorners()[k] - faces.first(i);
+      for (std::size_t j = 0; j < face.size(); ++j)
+        points.push_back(face[(start + j) % face.size()]);
+    }
+    split.codeFront(front, points);
+    for (const std::uint32_t i : prepared.irregular) {
+      for (const std::uint32_t point : faces[i]) split.codeAlone(welding_->vertexOf(point), point);
+    }
+    if (wishes_.mayRenumber) renumber(split.renumbering());
+  }
+
+  void renumber(std::vector<std::uint32_t> order) {
+    numberOf_.resize(order.size());
+    bool changed = false;
+    for (std::uint32_t j = 0; j < order.size(); ++j) {
+      numberOf_[order[j]] = j;
+      changed = changed || order[j] != j;
+    }
+    if (changed) {
+      result_.pointOrder = std::move(order);
+    } else {
+      numberOf_.clear();
+    }
+  }
+
+  Cells renumbered(const Cells& cells) const {
+    Cells result = cells;
+    if (numberOf_.empty()) return result;
+    for (std::uint32_t& i : result.indices) i = numberOf_[i];
+    return result;
+  }
+
+  void encodeLines() {
+    Cells lines = renumbered(cells_.lines);
+    const VertexIndex index(places_);
+    PlainCells<SymbolWriter>(coder_, places_, index, PlainCells<SymbolWriter>::Shape::Line)
+        .code(lines.size(), lines, noCheck);
+  }
+
+  void encodeVertices() {
+    const Cells given = renumbered(cells_.vertices);
+    if (wishes_.keepOrder) {
+      Cells cells = given;
+      VertexCells<SymbolWriter>(coder_, points_.points.size()).code(cells.size(), cells, noCheck);
+      return;
+    }
+    Cells sorted;
+    std::vector<std::uint32_t> order(given.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::vector<std::vector<std::uint32_t>> cells(given.size());
+    for (std::uint32_t i = 0; i < given.size(); ++i) {
+      cells[i].assign(given[i].begin(), given[i].end());
+      std::sort(cells[i].begin(), cells[i].end());
+    }
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return cells[a] != cells[b] ? cells[a] < cells[b] : a < b;
+    });
+    for (const std::uint32_t i : order) sorted.add(cells[i]);
+    VertexCells<SymbolWriter>(coder_, points_.points.size()).code(sorted.size(), sorted, noCheck);
+    result_.vertexOrder = std::move(order);
+  }
+
+  const MeshPoints& points_;
+  const MeshCells& cells_;
+  CodingWishes wishes_;
+  std::vector<Position> places_;
+  std::optional<Welding> welding_;
+  std::vector<std::uint32_t> numberOf_;  ///< of each point, if they were renumbered
+  SymbolWriter coder_;
+  EncodedMesh result_;
+};
+
+class MeshDecoder {
+ public:
+  MeshDecoder(const MeshPoints& points, ByteView payload, std::uint64_t maxBytes)
+      : points_(points), maxBytes_(maxBytes), coder_(payload) {
+    check(points.points.size() * kBytesPerPoint);
+    places_ = placesOf(points);
+  }
+
+  MeshCells decode() {
+    MeshHead head;
+    head.code(coder_);
+    if (head.faces) decodeFaces(head.keepOrder);
+    if (head.lines > 0) {
+      const VertexIndex index(places_);
+      PlainCells<SymbolReader>(coder_, places_, index, PlainCells<SymbolReader>::Shape::Line)
+          .code(head.lines, cells_.lines, [&] { check(0); });
+    }
+    if (head.vertices > 0) {
+      VertexCells<SymbolReader>(coder_, points_.points.size())
+          .code(head.vertices, cells_.vertices, [&] { check(0); });
+    }
+    coder_.finish();
+    return std::move(cells_);
+  }
+
+ private:
+  /// Of positions, their index, and what the front knows of each vertex.
+  static constexpr std::uint64_t kBytesPerPoint = 160;
+  /// Of the edges, and the places, that the order is coded by.
+  static constexpr std::uint64_t kOrderBytesPerCorner = 40;
+  static constexpr std::uint64_t kOrderBytesPerFace = 40;
+
+  /// Throws unless the cells and `bytes` more are within the limits.
+  void check(std::uint64_t bytes) const {
+    for (const Cells* cells : {&cells_.vertices, &cells_.lines, &cells_.faces}) {
+      if (cells->indices.size() > kMostNumbers) {
+        throw Error(ErrorCode::Corrupt, "the mesh has more corners than its format allows");
+      }
+      bytes += 4 * (std::uint64_t{cells->indices.capacity()} + cells->ends.capacity());
+    }
+    if (bytes <= maxBytes_) return;
+    throw Error(ErrorCode::LimitExceeded,
+                "decoding the cells needs more memory than the limit of " +
+                    std::to_string(maxBytes_) +
+                    " bytes; raise the limit if the file is to be trusted");
+  }
+
+  void decodeFaces(bool keepOrder) {
+    FacesHead head;
+    head.code(coder_);
+    std::optional<Welding> welding;
+    if (head.welded) welding.emplace(points_.points);
+    const std::vector<Position> places =
+        welding ? placesOf(places_, *welding) : std::vector<Position>();
+    UnknownFaces truth;
+    Cells irregular;
+    FacesSection<SymbolReader, UnknownFaces> section(coder_, head, welding ? places : places_);
+    section.codeVertices(truth, irregular, [&](std::size_t bytes) { check(bytes); });
+    const Span<const std::uint32_t> corners = section.front().allCorners();
+    // The faces themselves, the points of their corners, and the front until they are there.
+    check(section.front().bytes() + 12 * (corners.size() + irregular.indices.size()));
+    std::vector<std::uint32_t> points(corners.begin(), corners.end());
+    if (welding) {
+      CornerSplit<SymbolReader> split(coder_, *welding, false);
+      split.codeFront(section.front(), points);
+      for (std::uint32_t& point : irregular.indices) point = split.codeAlone(point, 0);
+    }
+    section.appendRegular(points, cells_.faces);
+    for (std::size_t i = 0; i < irregular.size(); ++i) cells_.faces.add(irregular[i]);
+    if (keepOrder) decodeOrder();
+  }
+
+  void decodeOrder() {
+    check(kOrderBytesPerCorner * cells_.faces.indices.size() +
+          kOrderBytesPerFace * cells_.faces.size());
+    std::vector<std::uint32_t> order;
+    std::vector<std::uint32_t> starts;
+    FaceOrder<SymbolReader>(coder_, cells_.faces).code(order, starts);
+    Cells ordered;
+    std::vector<std::uint32_t> face;
+    for (std::size_t t = 0; t < order.size(); ++t) {
+      const Span<const std::uint32_t> coded = cells_.faces[order[t]];
+      face.assign(coded.begin(), coded.end());
+      std::rotate(face.begin(), face.begin() + starts[t], face.end());
+      ordered.add(face);
+    }
+    cells_.faces = std::move(ordered);
+  }
+
+  const MeshPoints& points_;
+  std::uint64_t maxBytes_;
+  SymbolReader coder_;
+  std::vector<Position> places_;
+  MeshCells cells_;
+};
+
+}  // namespace
+
+EncodedMesh encodeMesh(const MeshPoints& points, const MeshCells& cells,
+                       const CodingWishes& wishes) {
+  if (points.points.size() > kMostNumbers) {
+    throw Error(ErrorCode::Unsupported,
+                "the mesh has more than 2^32 points; store it in parts, or without cells");
+  }
+  checkCells(cells.vertices, points.points.size(), "vertex cells");
+  checkCells(cells.lines, points.points.size(), "lines");
+  checkCells(cells.faces, points.points.size(), "faces");
+  return MeshEncoder(points, cells, wishes).encode();
+}
+
+MeshCells decodeMesh(const MeshPoints& points, ByteView payload, std::uint64_t maxBytes) {
+  if (points.points.size() > kMostNumbers) {
+    throw Error(ErrorCode::Corrupt, "a mesh of more than 2^32 points cannot have cells");
+  }
+  return MeshDecoder(points, payload, maxBytes).decode();
+}
+
+}  // namespace bspc::connectivity

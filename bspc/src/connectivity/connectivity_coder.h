@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "bspc/grid.h"
+#include "bspc/span.h"
+#include "connectivity/cells.h"
+
+namespace bspc::connectivity {
+
+/// The cells of a mesh: lists of the numbers of its points, in decoded order. Vertex cells and
+/// lines may have any number of points; faces too, but those of fewer than three are not usual.
+struct MeshCells {
+  Cells vertices;
+  Cells lines;
+  Cells faces;
+};
+
+/// Where the points are: both sides know them.
+struct MeshPoints {
+  Span<const GridPoint> points;
+  /// Lengths of the grid's steps along the axes; only their ratios matter.
+  std::array<double, 3> steps{1, 1, 1};
+};
+
+struct CodingWishes {
+  unsigned effort = 9;  ///< 1 … 4: quick; 5 … 9: small
+  /// Cells come back in their order, and each with its vertices from the first one on.
+  bool keepOrder = false;
+  /// Points at the same place may change their numbers (EncodedMesh::pointOrder).
+  bool mayRenumber = false;
+};
+
+struct EncodedMesh {
+  Bytes payload;
+  /// Input number of the j-th vertex cell, and of the j-th face, that a decoder returns; empty if
+  /// that is j. Lines keep their order.
+  std::vector<std::uint32_t> vertexOrder;
+  std::vector<std::uint32_t> faceOrder;
+  /// Only if points were to be renumbered and were: the payload is for points of which number j is
+  /// pointOrder[j] of the input. Only points at the same place change.
+  std::vector<std::uint32_t> pointOrder;
+};
+
+/// Codes cells. Without keepOrder, cells come back in an order of the coder's, faces from any of
+/// their vertices on but in the same sense, vertex cells with their points sorted.
+///
+/// Throws Error(InvalidArgument) if a cell has a point that there is not, Error(Unsupported) for
+/// more than 2^32 − 16 points or corners.
+EncodedMesh encodeMesh(const MeshPoints& points, const MeshCells& cells,
+                       const CodingWishes& wishes);
+
+/// The cells. Any bytes are safe; `maxBytes` bounds the memory of the output and of all that is
+/// allocated on the way. Throws Error(Corrupt, Unsupported, LimitExceeded).
+MeshCells decodeMesh(const MeshPoints& points, ByteView payload, std::uint64_t maxBytes);
+
+}  // namespace bspc::connectivity

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "connectivity/cells.h"
+
+namespace bspc::connectivity {
+
+/// What an encoder finds out about faces before it codes them.
+struct PreparedFaces {
+  /// The faces, turned around where that makes them consistent with their neighbours.
+  Cells faces;
+  std::vector<std::uint8_t> flipped;
+  bool anyFlipped = false;
+  /// Faces that together are an oriented surface: no directed edge twice, no vertex twice in a
+  /// face.
+  std::vector<std::uint32_t> regular;
+  /// The others.
+  std::vector<std::uint32_t> irregular;
+  std::size_t borderEdges = 0;  ///< edges of regular faces with no regular face on the other side
+};
+
+PreparedFaces prepareFaces(const Cells& faces);
+
+}  // namespace bspc::connectivity
