@@ -125,9 +125,8 @@ std::vector<std::uint64_t> sortedPoints(const PointTable& table) {
   std::vector<std::uint64_t> order(table.points.size());
   std::iota(order.begin(), order.end(), std::uint64_t{0});
   const TableOrder same(table, table);
-  std::sort(order.begin(), order.end(), [&](std::uint64_t i, std::uint64_t j) {
-    return same.compare(i, j, false) < 0;
-  });
+  std::sort(order.begin(), order.end(),
+            [&](std::uint64_t i, std::uint64_t j) { return same.compare(i, j, false) < 0; });
   return order;
 }
 
@@ -158,9 +157,8 @@ std::vector<std::uint64_t> matchedPoints(const PointTable& given, const PointTab
                                   from.begin() + static_cast<std::ptrdiff_t>(end));
     for (std::size_t r = first; r < end; ++r) {
       // In order they agree nearly always, so the first is tried first.
-      auto found = std::find_if(left.begin(), left.end(), [&](std::uint64_t g) {
-        return agree(given, g, restored, to[r]);
-      });
+      auto found = std::find_if(left.begin(), left.end(),
+                                [&](std::uint64_t g) { return agree(given, g, restored, to[r]); });
       if (found == left.end()) found = left.begin();
       partners[to[r]] = *found;
       left.erase(found);

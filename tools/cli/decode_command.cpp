@@ -226,13 +226,11 @@ void addDecodeCommand(CLI::App& app) {
                    "Model: PLY, OBJ, OFF, XYZ, CSV, LAS or PCD; - writes PLY to a pipe")
       ->required();
   addQueryOptions(*command, args->query);
-  command
-      ->add_option("--arrays", args->arrays, "These arrays only; `info` lists their names")
+  command->add_option("--arrays", args->arrays, "These arrays only; `info` lists their names")
       ->option_text("NAME,...")
       ->group("Arrays");
   command->add_flag("--positions-only", args->positionsOnly, "No arrays")->group("Arrays");
-  command
-      ->add_flag("--counts", args->counts, "Add PointCount: how many points each stands for")
+  command->add_flag("--counts", args->counts, "Add PointCount: how many points each stands for")
       ->group("Arrays");
   command
       ->add_option("--color-level", args->colourLevel,

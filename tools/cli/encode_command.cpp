@@ -18,6 +18,7 @@
 #include "cli/scratch_file.h"
 #include "cli/text.h"
 #include "cli/usage_error.h"
+#include "formats/array_tuples.h"
 #include "formats/wording.h"
 
 namespace bspc::cli {
@@ -139,8 +140,8 @@ void printReport(const EncodeArguments& args, const std::string& name, const Enc
               << fixed(static_cast<double>(inputBytes) / static_cast<double>(report.fileBytes), 2)
               << " of " << args.input;
   }
-  std::cerr << "; " << errorText(report.exact, report.maxError) << arrayErrorsText(report) << "; " << methodName(report.method)
-            << ", " << gridText(report.grid);
+  std::cerr << "; " << errorText(report.exact, report.maxError) << arrayErrorsText(report) << "; "
+            << methodName(report.method) << ", " << gridText(report.grid);
   const bool wanted = args.layout == "streaming" || args.output == "-";
   if (report.layout == Layout::Streaming && !wanted) {
     std::cerr << "; streaming layout, for it takes more than --memory " << args.memory;
@@ -149,6 +150,23 @@ void printReport(const EncodeArguments& args, const std::string& name, const Enc
     std::cerr << "; " << withCommas(report.dropped) << " non-finite points left out";
   }
   std::cerr << '\n';
+}
+
+/// Reads the points with their arrays and encodes them at once: streams cannot carry arrays yet.
+EncodeReport encodeWhole(ModelPoints& points, ByteSink& sink, const EncodeOptions& options) {
+  constexpr std::size_t kBlock = std::size_t{1} << 16;
+  const std::size_t pointBytes = 3 * scalarSize(points.type());
+  std::vector<std::uint8_t> positions;
+  std::vector<ArrayValues> values = formats::emptyArrays(points.arrays());
+  for (std::size_t got = kBlock; got > 0;) {
+    const std::size_t size = positions.size();
+    positions.resize(size + kBlock * pointBytes);
+    got = points.read(positions.data() + size, values, kBlock);
+    positions.resize(size + got * pointBytes);
+  }
+  PointSetView view(positions.data(), points.type(), positions.size() / pointBytes, 0);
+  for (const ArrayValues& array : values) view.addArray(array.view());
+  return encode(view, sink, options);
 }
 
 void runEncode(const EncodeArguments& args) {
@@ -171,7 +189,10 @@ void runEncode(const EncodeArguments& args) {
       reading.clear();
       return draw(share);
     };
-    report = naming(args.input, [&] { return encodeStream(points, sink, options); });
+    report = naming(args.input, [&] {
+      return points.arrays().empty() ? encodeStream(points, sink, options)
+                                     : encodeWhole(points, sink, options.encoding);
+    });
     output.commit();
   }
   if (!args.quiet) printReport(args, output.name(), report);
@@ -192,8 +213,7 @@ void addContentOptions(CLI::App& command, EncodeArguments& args) {
       .add_option("--arrays", content.arrays.arrays, "Keep these arrays only; `info` lists names")
       ->option_text("NAME,...")
       ->group(kGroup);
-  command
-      .add_option("--no-array", content.arrays.without, "Leave out an array (may be repeated)")
+  command.add_option("--no-array", content.arrays.without, "Leave out an array (may be repeated)")
       ->option_text("NAME")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
@@ -207,8 +227,7 @@ void addContentOptions(CLI::App& command, EncodeArguments& args) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->group(kGroup);
   command
-      .add_flag("--positions-only", content.positionsOnly,
-                "Leave out everything but the positions")
+      .add_flag("--positions-only", content.positionsOnly, "Leave out everything but the positions")
       ->group(kGroup);
   command.add_flag("--no-faces", content.noFaces, "Leave out faces and edges")->group(kGroup);
   command
@@ -228,8 +247,7 @@ void addContentOptions(CLI::App& command, EncodeArguments& args) {
       .add_flag("--original-ids", args.originalIds,
                 "Add the array OriginalPointIds: where in the input each point was")
       ->group(kGroup);
-  command
-      .add_option("--crs", content.crs, "The coordinate reference system, as WKT or EPSG:25832")
+  command.add_option("--crs", content.crs, "The coordinate reference system, as WKT or EPSG:25832")
       ->option_text("TEXT")
       ->group(kGroup);
 }

@@ -67,9 +67,8 @@ const char* semanticName(Semantic semantic) {
 }
 
 Json descriptionJson(const ArrayDescription& array) {
-  Json json{{"name", array.name},
-            {"type", scalarName(array.type)},
-            {"components", array.components}};
+  Json json{
+      {"name", array.name}, {"type", scalarName(array.type)}, {"components", array.components}};
   if (!array.componentNames.empty()) json["componentNames"] = array.componentNames;
   if (!array.unit.empty()) json["unit"] = array.unit;
   if (array.semantic != Semantic::None) json["semantic"] = semanticName(array.semantic);

@@ -57,8 +57,9 @@ formats::Format chooseInputFormat(const std::string& name, const std::string& pa
 
 formats::Format chooseOutputFormat(const std::string& name, const std::string& path) {
   if (lowerCaseEnding(name.empty() ? path : "." + name) == "laz") {
-    throw UsageError(path + ": LAZ files are not written; write LAS and compress it, for example "
-                            "by laszip or pdal translate");
+    throw UsageError(path +
+                     ": LAZ files are not written; write LAS and compress it, for example "
+                     "by laszip or pdal translate");
   }
   if (const auto format = formatOf(name, path)) return *format;
   throw UsageError(path + ": cannot tell the format from the name; say it with --to " +

@@ -124,8 +124,7 @@ GridFit fitOriginal(const VerifyArguments& args, const FileInfo& info,
     std::vector<GridPoint> missing;
     std::set_difference(given.begin(), given.end(), points.begin(), points.end(),
                         std::back_inserter(missing));
-    failPoints(args, points.size(), given.size(),
-               std::max<std::uint64_t>(outside, missing.size()));
+    failPoints(args, points.size(), given.size(), std::max<std::uint64_t>(outside, missing.size()));
   }
   return fit;
 }
@@ -217,8 +216,8 @@ class ArrayCheck {
     if (ids_ == nullptr) return std::nullopt;
     std::memcpy(partners.data(), ids_->values.data(), count * sizeof(std::uint64_t));
     for (std::size_t j = 0; j < count; ++j) {
-      const auto place = std::lower_bound(fit_.sourceIndex.begin(), fit_.sourceIndex.end(),
-                                          partners[j]);
+      const auto place =
+          std::lower_bound(fit_.sourceIndex.begin(), fit_.sourceIndex.end(), partners[j]);
       if (!fit_.sourceIndex.empty()) {
         const bool isThere = place != fit_.sourceIndex.end() && *place == partners[j];
         partners[j] = isThere ? static_cast<std::uint64_t>(place - fit_.sourceIndex.begin())

@@ -177,8 +177,7 @@ std::vector<ArrayColumn> columnsOf(const std::vector<ArrayDescription>& arrays) 
   }
   std::vector<ArrayColumn> columns;
   for (std::size_t a = 0; a < arrays.size(); ++a) {
-    const ScalarType type =
-        arrays[a].type == ScalarType::Bit ? ScalarType::UInt8 : arrays[a].type;
+    const ScalarType type = arrays[a].type == ScalarType::Bit ? ScalarType::UInt8 : arrays[a].type;
     for (std::size_t k = 0; k < names[a].size(); ++k) {
       columns.push_back({{names[a][k], type}, a, k});
     }

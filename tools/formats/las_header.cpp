@@ -217,9 +217,8 @@ class HeaderReader {
     const bool isMark = header_.minorVersion == 0 && bytes == 2;
     if (bytes == 0 || isMark || bytes > kMostGap) {
       if (bytes > kMostGap) {
-        header_.otherContent.push_back(
-            {counted(bytes, "byte", "bytes") + " in front of the points",
-             OtherContent::Kind::Rest});
+        header_.otherContent.push_back({counted(bytes, "byte", "bytes") + " in front of the points",
+                                        OtherContent::Kind::Rest});
       }
       return skip(bytes);
     }
@@ -233,9 +232,8 @@ class HeaderReader {
   void nameOtherContent() {
     std::vector<OtherContent>& content = header_.otherContent;
     if (header_.extendedRecords > 0) {
-      content.push_back(
-          {counted(header_.extendedRecords, "extended record", "extended records"),
-           OtherContent::Kind::Rest});
+      content.push_back({counted(header_.extendedRecords, "extended record", "extended records"),
+                         OtherContent::Kind::Rest});
     }
     if (header_.hasWaveforms) content.push_back({"waveforms", OtherContent::Kind::Rest});
   }

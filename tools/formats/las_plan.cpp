@@ -38,13 +38,12 @@ std::vector<LasFilledField> filledFields(unsigned pointFormat,
                                          const std::vector<ArrayDescription>& arrays) {
   std::vector<LasFilledField> filled;
   for (LasField& field : lasFields(pointFormat)) {
-    const auto found = std::find_if(arrays.begin(), arrays.end(), [&](const ArrayDescription& a) {
-      return fills(a, field);
-    });
+    const auto found = std::find_if(arrays.begin(), arrays.end(),
+                                    [&](const ArrayDescription& a) { return fills(a, field); });
     if (found == arrays.end()) continue;
     const bool isByte = found->type == ScalarType::UInt8 && field.array.type == ScalarType::UInt16;
-    filled.push_back({std::move(field), static_cast<std::size_t>(found - arrays.begin()),
-                      isByte ? 256U : 1U});
+    filled.push_back(
+        {std::move(field), static_cast<std::size_t>(found - arrays.begin()), isByte ? 256U : 1U});
   }
   return filled;
 }

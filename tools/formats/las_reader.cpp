@@ -115,8 +115,7 @@ class LasStream : public PointStream {
     reservable_ = in_.reservable(header_.points, header_.recordBytes);
   }
 
-  std::size_t read(std::uint8_t* positions, Span<ArrayValues> values,
-                   std::size_t count) override {
+  std::size_t read(std::uint8_t* positions, Span<ArrayValues> values, std::size_t count) override {
     const std::uint64_t left = header_.points - done_;
     const auto points = static_cast<std::size_t>(std::min<std::uint64_t>(count, left));
     for (std::size_t first = 0; first < points; first += kBlock) {

@@ -53,9 +53,7 @@ void keepGeoKeys(const LasRecord& keys, Metadata& metadata) {
   if (*unit == 9003) metadata.lengthUnit = "ftUS";
 }
 
-bool isWkt(const std::string& crs) {
-  return !crs.empty() && crs.find('[') != std::string::npos;
-}
+bool isWkt(const std::string& crs) { return !crs.empty() && crs.find('[') != std::string::npos; }
 
 /// "user:id:description" as a record without payload.
 std::optional<LasRecord> parseRecord(const std::string& text) {

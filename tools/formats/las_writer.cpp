@@ -222,10 +222,18 @@ class LasWriter : public PointWriter {
         }
         const auto whole = static_cast<std::int32_t>(x);
         storeLittleEndian(record + 4 * k, whole);
-        error_ = std::max(error_, std::fabs(coordinate(k, whole) - p[k]));
+        noteError(std::fabs(coordinate(k, whole) - p[k]), std::fabs(p[k]), k);
         summary_.least[k] = std::min(summary_.least[k], whole);
         summary_.most[k] = std::max(summary_.most[k], whole);
       }
+    }
+  }
+
+  /// The last bits of a double are the arithmetic of LAS, no movement.
+  void noteError(double error, double magnitude, std::size_t k) {
+    constexpr double kArithmetic = 4.0 / (std::int64_t{1} << 53);
+    if (error > kArithmetic * std::max(magnitude, std::fabs(plan_.offset[k]))) {
+      error_ = std::max(error_, error);
     }
   }
 
@@ -253,8 +261,8 @@ class LasWriter : public PointWriter {
   }
 
   [[noreturn]] void failRange(const LasField& field, unsigned value, std::size_t index) const {
-    throw FormatError(quoted(field.array.name) + " of point " + grouped(written_ + index) +
-                      " is " + std::to_string(value) + "; point format " +
+    throw FormatError(quoted(field.array.name) + " of point " + grouped(written_ + index) + " is " +
+                      std::to_string(value) + "; point format " +
                       std::to_string(plan_.pointFormat) + " of LAS holds at most " +
                       std::to_string(field.mask()));
   }

@@ -50,8 +50,8 @@ std::unique_ptr<PointWriter> makeWriter(Format format, const ModelLayout& layout
 
 void requireLayout(const PointSetView& piece, const ModelLayout& layout) {
   const Span<const ArrayView> arrays = piece.arrays();
-  bool fits = (piece.empty() || piece.type() == layout.type) &&
-              arrays.size() == layout.arrays.size();
+  bool fits =
+      (piece.empty() || piece.type() == layout.type) && arrays.size() == layout.arrays.size();
   for (std::size_t a = 0; fits && a < arrays.size(); ++a) {
     fits = arrays[a].type == layout.arrays[a].type &&
            arrays[a].components == layout.arrays[a].components;

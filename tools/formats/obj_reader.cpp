@@ -76,8 +76,7 @@ class ObjStream : public PointStream {
     if (atVertex_) lookForColour();
   }
 
-  std::size_t read(std::uint8_t* positions, Span<ArrayValues> values,
-                   std::size_t count) override {
+  std::size_t read(std::uint8_t* positions, Span<ArrayValues> values, std::size_t count) override {
     std::size_t done = 0;
     for (; done < count && atVertex_; ++done) {
       storePosition(positions, done, readVertex(values));

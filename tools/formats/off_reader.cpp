@@ -29,8 +29,7 @@ class OffStream : public PointStream {
     reservable_ = in_.reservable(vertices_, 6);
   }
 
-  std::size_t read(std::uint8_t* positions, Span<ArrayValues> values,
-                   std::size_t count) override {
+  std::size_t read(std::uint8_t* positions, Span<ArrayValues> values, std::size_t count) override {
     std::size_t done = 0;
     for (; done < count && index_ < vertices_; ++done, ++index_) {
       storePosition(positions, done, readVertex(values));

@@ -35,8 +35,7 @@ class PcdStream : public PointStream {
     reservable_ = in_.reservable(header_.points, static_cast<std::size_t>(least));
   }
 
-  std::size_t read(std::uint8_t* positions, Span<ArrayValues> values,
-                   std::size_t count) override {
+  std::size_t read(std::uint8_t* positions, Span<ArrayValues> values, std::size_t count) override {
     const std::uint64_t left = header_.points - done_;
     const auto points = static_cast<std::size_t>(std::min<std::uint64_t>(count, left));
     if (points > 0) body_->readPoints(done_, points, positions, values);

@@ -126,8 +126,7 @@ class PcdWriter : public PointWriter {
     const std::string name = index == rgb_ ? "rgb" : "rgba";
     const std::string kept = metadataEntry(layout_.metadata, "pcd." + name);
     ScalarType type = index == rgb_ ? ScalarType::Float32 : ScalarType::UInt32;
-    for (const ScalarType known :
-         {ScalarType::Float32, ScalarType::UInt32, ScalarType::Int32}) {
+    for (const ScalarType known : {ScalarType::Float32, ScalarType::UInt32, ScalarType::Int32}) {
       if (kept == scalarName(known)) type = known;
     }
     addField(name, type, 1);

@@ -27,8 +27,7 @@ class PlyStream : public PointStream {
     reservable_ = in_.reservable(vertices.count, vertices.leastBytes(header_.encoding));
   }
 
-  std::size_t read(std::uint8_t* positions, Span<ArrayValues> values,
-                   std::size_t count) override {
+  std::size_t read(std::uint8_t* positions, Span<ArrayValues> values, std::size_t count) override {
     skipUpTo(header_.vertexElement);
     const std::uint64_t left = header_.vertices().count - done_;
     const auto step = static_cast<std::size_t>(std::min<std::uint64_t>(count, left));

@@ -112,7 +112,8 @@ std::vector<GroupedColumns> readXyzColumns(InputBuffer& in, TextScanner& text,
   std::vector<GroupedColumns> groups = groupColumns(columns);
   for (GroupedColumns& group : groups) {
     for (std::size_t& column : group.columns) column = numberOf[column];
-    if (group.array.semantic != Semantic::Colours || group.array.type != ScalarType::Int32) continue;
+    if (group.array.semantic != Semantic::Colours || group.array.type != ScalarType::Int32)
+      continue;
     const auto within = [&](std::uint64_t greatest) {
       return std::all_of(group.columns.begin(), group.columns.end(),
                          [&](std::size_t c) { return surveys[c].isWithin(greatest); });

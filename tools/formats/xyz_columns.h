@@ -16,8 +16,8 @@ namespace bspc::formats {
 /// and to 65,535 UInt16; other numbers, with nothing for NaN, Float64; anything else String.
 ///
 /// Looks at all lines from the scanner's on if the input can go back, else at those of its first
-/// four megabytes. `text` reads `in` and stands at the first point, where it is left; members of the
-/// groups are numbers of columns in the file.
+/// four megabytes. `text` reads `in` and stands at the first point, where it is left; members of
+/// the groups are numbers of columns in the file.
 std::vector<GroupedColumns> readXyzColumns(InputBuffer& in, TextScanner& text,
                                            const XyzLayout& layout);
 

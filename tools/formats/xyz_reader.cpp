@@ -31,8 +31,7 @@ class XyzStream : public PointStream {
     targets_ = targetsOf(groups, layout_.axisOf.size());
   }
 
-  std::size_t read(std::uint8_t* positions, Span<ArrayValues> values,
-                   std::size_t count) override {
+  std::size_t read(std::uint8_t* positions, Span<ArrayValues> values, std::size_t count) override {
     std::size_t done = 0;
     for (; done < count && layout_.atPoint; ++done) {
       storePosition(positions, done, readPoint(values));

@@ -233,8 +233,7 @@ TEST(Las, GeoTiffKeysTellTheCodeOfTheCoordinateSystemAndItsUnit) {
     file.recordCount = 1;
     return read(file.text(), Format::Las);
   };
-  const Model projected =
-      model({1, 1, 0, 3, 1024, 0, 1, 1, 3072, 0, 1, 32610, 3076, 0, 1, 9001});
+  const Model projected = model({1, 1, 0, 3, 1024, 0, 1, 1, 3072, 0, 1, 32610, 3076, 0, 1, 9001});
   EXPECT_EQ(projected.metadata.crs, "EPSG:32610");
   EXPECT_EQ(projected.metadata.lengthUnit, "m");
   EXPECT_EQ(model({1, 1, 0, 2, 1024, 0, 1, 2, 2048, 0, 1, 4326}).metadata.crs, "EPSG:4326");
@@ -257,9 +256,10 @@ TEST(Las, ExtraBytesOfAPointAreArrays) {
   EXPECT_EQ(valuesOf<std::uint8_t>(read(file.text(), Format::Las), "ExtraBytes"),
             (std::vector<std::uint8_t>(30, 7)));
   // float32, three int16, two bytes of no known type, and a name that is one of the format's.
-  file.records = variableLengthRecord(
-      "LASF_Spec", 4, extraAttribute("height", 9) + extraAttribute("offset", 24) +
-                          extraAttribute("raw", 0, 2) + extraAttribute("Intensity", 1));
+  file.records =
+      variableLengthRecord("LASF_Spec", 4,
+                           extraAttribute("height", 9) + extraAttribute("offset", 24) +
+                               extraAttribute("raw", 0, 2) + extraAttribute("Intensity", 1));
   file.recordCount = 1;
   const Model model = read(file.text(), Format::Las);
   EXPECT_EQ(numbers<double>(model), kPositions);
@@ -292,7 +292,8 @@ std::string randomFile(unsigned minor, unsigned format) {
   std::mt19937_64 random(format);
   for (std::size_t i = 0; i < file.points.size(); ++i) {
     const std::size_t start = text.size() - (i + 1) * file.recordBytes;
-    for (std::size_t b = 0; b < file.recordBytes; ++b) text[start + b] = static_cast<char>(random());
+    for (std::size_t b = 0; b < file.recordBytes; ++b)
+      text[start + b] = static_cast<char>(random());
   }
   return text;
 }

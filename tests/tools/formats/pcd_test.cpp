@@ -197,18 +197,18 @@ TEST(Pcd, PackedColoursAndNormalsAreArraysInEveryEncoding) {
     EXPECT_EQ(numbers<float>(model), (std::vector<float>{1, 2, 3, 4, 5, 6}));
   }
   const Model& model = models.front();
-  EXPECT_EQ(test::arraysOf(model),
-            (std::vector<std::string>{"Normals 3 x float32", "RGB 3 x uint8", "rgb_padding 1 x uint8",
-                                      "label 1 x int8", "RGBA 4 x uint8"}));
+  EXPECT_EQ(test::arraysOf(model), (std::vector<std::string>{"Normals 3 x float32", "RGB 3 x uint8",
+                                                             "rgb_padding 1 x uint8",
+                                                             "label 1 x int8", "RGBA 4 x uint8"}));
   EXPECT_EQ(valuesOf<std::uint8_t>(model, "RGB"),
             (std::vector<std::uint8_t>{0x10, 0x20, 0x30, 0x10, 0x20, 0x30}));
   EXPECT_EQ(valuesOf<std::uint8_t>(model, "RGBA")[3], 0xFF);
   EXPECT_EQ(test::arrayOf(model, "Normals").componentNames,
             (std::vector<std::string>{"nx", "ny", "nz"}));
   const std::string back = test::writtenAgain(model, Format::Pcd);
-  expectInMessage(back, {"FIELDS x y z normal_x normal_y normal_z rgb label rgba\n",
-                         "TYPE F F F F F F F I U\n", "WIDTH 1\nHEIGHT 2\n",
-                         "VIEWPOINT 0 0 1 1 0 0 0\n"});
+  expectInMessage(
+      back, {"FIELDS x y z normal_x normal_y normal_z rgb label rgba\n", "TYPE F F F F F F F I U\n",
+             "WIDTH 1\nHEIGHT 2\n", "VIEWPOINT 0 0 1 1 0 0 0\n"});
   test::expectSameArrays(model, read(back, Format::Pcd));
 }
 
@@ -363,9 +363,9 @@ TEST(Pcd, NoMutationHarms) {
   test::expectNoMutationHarms(header(kXyz, kFloats, "ascii") + "0.1 2 -3\n4 5e-7 6\n", Format::Pcd,
                               3000);
   test::expectNoMutationHarms(header(kXyz, kFloats, "binary") + bytesOf(kTwo), Format::Pcd, 3000);
-  test::expectNoMutationHarms(scanHeader("ascii") +
-                                  "1 2 3 0.5 1e-40 0 -3 1 7\n4 5 6 0.5 1e-40 0 -3 1 4278190080\n",
-                              Format::Pcd, 3000, 200);
+  test::expectNoMutationHarms(
+      scanHeader("ascii") + "1 2 3 0.5 1e-40 0 -3 1 7\n4 5 6 0.5 1e-40 0 -3 1 4278190080\n",
+      Format::Pcd, 3000, 200);
   test::expectNoMutationHarms(scanHeader("binary") + std::string(66, '\5'), Format::Pcd, 3000, 200);
   const std::vector<float> many = stairs(300);
   // LZF data may grow 88-fold, and 3 bytes become 24 where types meet in float64.

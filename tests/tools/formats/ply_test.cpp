@@ -205,10 +205,10 @@ TEST(Ply, ArraysKeepTheirTypesInEveryEncoding) {
     models.push_back(read(text, Format::Ply));
   }
   for (const Model& model : models) test::expectSameArrays(models.front(), model);
-  EXPECT_EQ(test::arraysOf(models.front()),
-            (std::vector<std::string>{"a 1 x uint8", "b 1 x int8", "c 1 x int16", "d 1 x uint16",
-                                      "e 1 x int32", "f 1 x uint32", "g 1 x float32",
-                                      "h 1 x float64"}));
+  EXPECT_EQ(
+      test::arraysOf(models.front()),
+      (std::vector<std::string>{"a 1 x uint8", "b 1 x int8", "c 1 x int16", "d 1 x uint16",
+                                "e 1 x int32", "f 1 x uint32", "g 1 x float32", "h 1 x float64"}));
   EXPECT_EQ(valuesOf<std::uint32_t>(models.front(), "f"),
             (std::vector<std::uint32_t>{UINT32_MAX, 0}));
   EXPECT_TRUE(std::signbit(valuesOf<float>(models.front(), "g")[1]));
@@ -234,19 +234,19 @@ TEST(Ply, NormalsColoursAndTextureCoordinatesAreArraysAndComeBackAsProperties) {
   EXPECT_EQ(test::arrayOf(model, "Normals").componentNames,
             (std::vector<std::string>{"nx", "ny", "nz"}));
   const std::string back = test::writtenAgain(model, Format::Ply);
-  for (const char* line : {"property uchar red\nproperty uchar green\nproperty uchar blue\n",
-                           "property float nx\n", "property double u\n", "property int v:1\n",
-                           "comment a scan\n"}) {
+  for (const char* line :
+       {"property uchar red\nproperty uchar green\nproperty uchar blue\n", "property float nx\n",
+        "property double u\n", "property int v:1\n", "comment a scan\n"}) {
     EXPECT_NE(back.find(line), std::string::npos) << back;
   }
   test::expectSameArrays(model, read(back, Format::Ply));
 }
 
 TEST(Ply, NumberedPropertiesAreOneArray) {
-  const Model model = read(header("ascii", "element vertex 1\n" + kXyz +
-                                               "property int id:0\nproperty int id:1\n") +
-                               "1 2 3 7 8\n",
-                           Format::Ply);
+  const Model model =
+      read(header("ascii", "element vertex 1\n" + kXyz + "property int id:0\nproperty int id:1\n") +
+               "1 2 3 7 8\n",
+           Format::Ply);
   EXPECT_EQ(test::arraysOf(model), (std::vector<std::string>{"id 2 x int32"}));
   test::expectSameArrays(model, read(test::writtenAgain(model, Format::Ply), Format::Ply));
 }

@@ -54,8 +54,7 @@ TEST(Xyz, NamedColumnsAreArraysOfTheTypesThatTheirTextsShow) {
   EXPECT_TRUE(std::isnan(intensity[0]));
   EXPECT_EQ(intensity[1], 7);
   EXPECT_EQ(valuesOf<std::int64_t>(model, "id"), (std::vector<std::int64_t>{5000000000, -1}));
-  EXPECT_EQ(valuesOf<std::uint8_t>(model, "RGB"),
-            (std::vector<std::uint8_t>{255, 0, 1, 2, 3, 4}));
+  EXPECT_EQ(valuesOf<std::uint8_t>(model, "RGB"), (std::vector<std::uint8_t>{255, 0, 1, 2, 3, 4}));
   const Model back = read(test::writtenAgain(model, Format::Csv), Format::Csv);
   EXPECT_EQ(test::arraysOf(back), test::arraysOf(model));
   EXPECT_EQ(test::arrayOf(back, "label").strings, test::arrayOf(model, "label").strings);
@@ -172,8 +171,7 @@ TEST(Xyz, TextsWithBlanksAreWordsInXyzFiles) {
   PointSetView view(xyz.data(), 2);
   view.addArray(viewOf("a label", ScalarType::String, texts));
   EXPECT_EQ(written(view, Format::Xyz), "# x y z a_label\n0 1 2 big_tree__1\n3 4 5 _\n");
-  EXPECT_EQ(written(view, Format::Csv),
-            "x,y,z,\"a label\"\n0,1,2,\"big tree #1\"\n3,4,5,\"\"\n");
+  EXPECT_EQ(written(view, Format::Csv), "x,y,z,\"a label\"\n0,1,2,\"big tree #1\"\n3,4,5,\"\"\n");
 }
 
 TEST(Xyz, NoMutationHarms) {
