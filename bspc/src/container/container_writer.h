@@ -13,6 +13,12 @@ namespace bspc::container {
 /// Gives the payload of a tile's chunk in a column.
 using ChunkSource = std::function<Bytes(std::size_t tile, std::size_t column)>;
 
+/// How a file begins: signature, version and head block.
+Bytes fileStart(const FileHead& head);
+/// How a file in the streaming layout ends: the index block with a tile table, and the end block
+/// that leads to it.
+Bytes fileEnd(ByteView table, std::uint64_t indexOffset);
+
 /// Writes a whole file in the progressive layout; head.tiles has the sizes of all chunks. Asks for
 /// each chunk that there is, column by column. Returns the bytes written.
 std::uint64_t writeProgressive(ByteSink& sink, const FileHead& head, const ChunkSource& chunks);
