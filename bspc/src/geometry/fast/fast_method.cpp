@@ -63,6 +63,7 @@ SetPoints pointsOfLayer(const RankedPoints& ranked, const std::vector<std::uint3
 EncodedTile encodeAlongHilbert(const TileInput& tile, const RankedPoints& ranked,
                                const TileHeader& header, const PointProgress& progress) {
   EncodedTile result;
+  result.nestsPoints = true;
   const bool layered = tile.layers > 1;
   const std::vector<std::uint32_t> sequence =
       layered ? sequenceOf(tile) : std::vector<std::uint32_t>();
@@ -122,6 +123,8 @@ EncodedTile encodeInInputOrder(const TileInput& tile, const RankedPoints& ranked
   EncodedTile result;
   result.order = identity(tile.points.size());
   const LayerStrides strides(tile.points.size(), tile.layers, header.ratioBits);
+  result.nestsPoints = true;
+  if (tile.layers > 1) result.layerOrder = strides.layerAfterLayer(tile.layers - 1);
   for (unsigned layer = 0; layer < tile.layers; ++layer) {
     container::ByteWriter payload;
     if (layer == 0) writeHeader(payload, header, tile.layers);
@@ -202,6 +205,10 @@ DecodedTile FastMethod::decode(const TileToDecode& tile, const PointProgress& pr
     }
   }
   collector.append(inOrder.data(), inOrder.size());
+  if (inputOrder && tile.layers > 1) {
+    budget.checkBytes(result.points.size() * (sizeof(GridPoint) + sizeof(std::uint32_t)));
+    result.layerOrder = strides.layerAfterLayer(static_cast<unsigned>(tile.payloads.size()) - 1);
+  }
   if (tile.wantCounts || tile.cellLevel) {
     constexpr std::uint64_t kSortBytes = 40;  // per point: places, keys and their copies
     budget.checkBytes(result.points.size() * kSortBytes);
