@@ -6,6 +6,7 @@
 #include "entropy/logistic_math.h"
 
 namespace bspc::entropy {
+inline namespace BSPC_LANE_SET {
 
 namespace detail {
 
@@ -74,4 +75,5 @@ class Counter {
   std::uint32_t state_ = 1U << 31;  ///< probability of a 1 in the upper 24 bits, age in the lower 8
 };
 
+}  // namespace BSPC_LANE_SET
 }  // namespace bspc::entropy
