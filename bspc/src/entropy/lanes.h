@@ -26,7 +26,7 @@ inline namespace BSPC_LANE_SET {
 
 constexpr std::size_t kLanes = 8;
 
-namespace detail {
+namespace lane_detail {
 
 #if defined(BSPC_LANES_AVX2)
 constexpr unsigned kRegisterBytes = 32;
@@ -38,22 +38,22 @@ constexpr unsigned kRegisters = 32 / kRegisterBytes;
 using FloatRegister = float __attribute__((vector_size(kRegisterBytes)));
 using IntRegister = std::int32_t __attribute__((vector_size(kRegisterBytes)));
 
-}  // namespace detail
+}  // namespace lane_detail
 
 /// Eight whole numbers, or a mask: all bits of a lane are set where a comparison holds.
 struct IntLanes {
-  detail::IntRegister part[detail::kRegisters] = {};
+  lane_detail::IntRegister part[lane_detail::kRegisters] = {};
 
   IntLanes() = default;
   BSPC_LANES_INLINE IntLanes(std::int32_t x) {  // NOLINT: a number stands for eight of it
-    for (auto& p : part) p = x - detail::IntRegister{};
+    for (auto& p : part) p = x - lane_detail::IntRegister{};
   }
 
-#define BSPC_LANES_OPERATOR(op)                                                           \
-  BSPC_LANES_INLINE friend IntLanes operator op(const IntLanes& a, const IntLanes& b) {   \
-    IntLanes r;                                                                           \
-    for (unsigned i = 0; i < detail::kRegisters; ++i) r.part[i] = a.part[i] op b.part[i]; \
-    return r;                                                                             \
+#define BSPC_LANES_OPERATOR(op)                                                                \
+  BSPC_LANES_INLINE friend IntLanes operator op(const IntLanes& a, const IntLanes& b) {        \
+    IntLanes r;                                                                                \
+    for (unsigned i = 0; i < lane_detail::kRegisters; ++i) r.part[i] = a.part[i] op b.part[i]; \
+    return r;                                                                                  \
   }
   BSPC_LANES_OPERATOR(&)
   BSPC_LANES_OPERATOR(|)
@@ -61,41 +61,41 @@ struct IntLanes {
 #undef BSPC_LANES_OPERATOR
   BSPC_LANES_INLINE friend IntLanes operator~(const IntLanes& a) {
     IntLanes r;
-    for (unsigned i = 0; i < detail::kRegisters; ++i) r.part[i] = ~a.part[i];
+    for (unsigned i = 0; i < lane_detail::kRegisters; ++i) r.part[i] = ~a.part[i];
     return r;
   }
   BSPC_LANES_INLINE friend IntLanes operator>>(const IntLanes& a, int shift) {
     IntLanes r;
-    for (unsigned i = 0; i < detail::kRegisters; ++i) r.part[i] = a.part[i] >> shift;
+    for (unsigned i = 0; i < lane_detail::kRegisters; ++i) r.part[i] = a.part[i] >> shift;
     return r;
   }
   BSPC_LANES_INLINE IntLanes& operator|=(const IntLanes& b) { return *this = *this | b; }
 };
 
 struct Lanes {
-  detail::FloatRegister part[detail::kRegisters] = {};
+  lane_detail::FloatRegister part[lane_detail::kRegisters] = {};
 
   Lanes() = default;
   BSPC_LANES_INLINE Lanes(float x) {  // NOLINT: a number stands for eight of it
-    for (auto& p : part) p = x - detail::FloatRegister{};
+    for (auto& p : part) p = x - lane_detail::FloatRegister{};
   }
 
-#define BSPC_LANES_OPERATOR(op)                                                           \
-  BSPC_LANES_INLINE friend Lanes operator op(const Lanes& a, const Lanes& b) {            \
-    Lanes r;                                                                              \
-    for (unsigned i = 0; i < detail::kRegisters; ++i) r.part[i] = a.part[i] op b.part[i]; \
-    return r;                                                                             \
+#define BSPC_LANES_OPERATOR(op)                                                                \
+  BSPC_LANES_INLINE friend Lanes operator op(const Lanes& a, const Lanes& b) {                 \
+    Lanes r;                                                                                   \
+    for (unsigned i = 0; i < lane_detail::kRegisters; ++i) r.part[i] = a.part[i] op b.part[i]; \
+    return r;                                                                                  \
   }
   BSPC_LANES_OPERATOR(+)
   BSPC_LANES_OPERATOR(-)
   BSPC_LANES_OPERATOR(*)
   BSPC_LANES_OPERATOR(/)
 #undef BSPC_LANES_OPERATOR
-#define BSPC_LANES_COMPARISON(op)                                                         \
-  BSPC_LANES_INLINE friend IntLanes operator op(const Lanes& a, const Lanes& b) {         \
-    IntLanes r;                                                                           \
-    for (unsigned i = 0; i < detail::kRegisters; ++i) r.part[i] = a.part[i] op b.part[i]; \
-    return r;                                                                             \
+#define BSPC_LANES_COMPARISON(op)                                                              \
+  BSPC_LANES_INLINE friend IntLanes operator op(const Lanes& a, const Lanes& b) {              \
+    IntLanes r;                                                                                \
+    for (unsigned i = 0; i < lane_detail::kRegisters; ++i) r.part[i] = a.part[i] op b.part[i]; \
+    return r;                                                                                  \
   }
   BSPC_LANES_COMPARISON(<)
   BSPC_LANES_COMPARISON(<=)
@@ -140,8 +140,8 @@ BSPC_LANES_INLINE Lanes lanesOf(const IntLanes& bits) {
 /// Whole numbers as floating point.
 BSPC_LANES_INLINE Lanes converted(const IntLanes& numbers) {
   Lanes v;
-  for (unsigned i = 0; i < detail::kRegisters; ++i) {
-    v.part[i] = __builtin_convertvector(numbers.part[i], detail::FloatRegister);
+  for (unsigned i = 0; i < lane_detail::kRegisters; ++i) {
+    v.part[i] = __builtin_convertvector(numbers.part[i], lane_detail::FloatRegister);
   }
   return v;
 }

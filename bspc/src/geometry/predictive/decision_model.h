@@ -150,18 +150,20 @@ class DecisionModel {
                  const Predictors& p);
   static float shareEvidence(const Bisection& b, float probability, float widening, float floor);
 
-  static constexpr unsigned kSideContexts = 11;
+  static constexpr unsigned kPhaseOpens = 8;  ///< sizes of boxes in which phases speak
+  static constexpr unsigned kSideContexts = 12;
   static constexpr std::array<unsigned, kSideContexts> kSideSizes{
       kSideKinds * kLogits * kSizes,        kSideKinds* kCoarse* kCoarse* kMasses,
       kSideKinds* kDistances* kDistances,   kSideKinds* kCoarse* kLogits,
       kSideKinds* kValues* kValues* kOpens, kSideKinds* kCoarse* kSizes,
       kSideKinds* kLogits* kSizes,          kSideKinds* kLogits* kLogits,
       kSideKinds* kCoarse* kSizes,          kSideKinds* kLogits* kSurfaceErrors,
-      kSideKinds* kCoarse* kCoarse * 3};
-  static constexpr unsigned kCountContexts = 5;
+      kSideKinds* kCoarse* kCoarse * 3,     kSideKinds* kLogits* kPhaseOpens};
+  static constexpr unsigned kCountContexts = 6;
   static constexpr std::array<unsigned, kCountContexts> kCountSizes{
-      kCounts * kSizes, kCounts * 8 * kSizes, kCounts * 8 * 6 * 3, kCounts* kDistances* kDistances,
-      kCounts * 8 * 6};
+      kCounts * kSizes,    kCounts * 8 * kSizes,
+      kCounts * 8 * 6 * 3, kCounts* kDistances* kDistances,
+      kCounts * 8 * 6,     kCounts* kLogits* kPhaseOpens};
   static constexpr unsigned kBisections = 8;
   static constexpr unsigned kCountOctaves = 21;
   static constexpr std::array<unsigned, 2> kShareSizes{kBisections * kLogits * kCountOctaves,
@@ -170,18 +172,20 @@ class DecisionModel {
   static constexpr unsigned kInputs = 32;
   static constexpr float kWeight = 0.12F;
   static constexpr unsigned kCounterAge = 60;
+  static constexpr unsigned kSideSets = 2 * kSideKinds * kSizes * 3;
   static constexpr unsigned kSidesPerPhase = kSideKinds * kMasses * kErrors;
 
   std::array<Counters, kSideContexts> side_;
   std::array<Counters, kCountContexts> count_;
   std::array<Counters, 2> share_;
   entropy::Evidence evidence_;
-  entropy::LogisticMixer<2> sideMixer_{{2 * kSideKinds * kSizes * 3, kSidesPerPhase + kSideKinds},
-                                       kInputs,
-                                       kWeight,
-                                       {},
-                                       kCounterAge};
-  entropy::LogisticMixer<2> countMixer_{{kCounts, kCounts}, kInputs, kWeight, {}, kCounterAge};
+  entropy::LogisticMixer<2> sideMixer_{
+      {kSideSets + kSideKinds * 3 * kPhaseOpens, kSidesPerPhase + kSideKinds},
+      kInputs,
+      kWeight,
+      {},
+      kCounterAge};
+  entropy::LogisticMixer<2> countMixer_{{2 * kCounts, kCounts}, kInputs, kWeight, {}, kCounterAge};
   entropy::LogisticMixer<2> shareMixer_{
       {kBisections, kBisections}, kInputs, kWeight, {}, kCounterAge};
 };
@@ -206,8 +210,13 @@ bool DecisionModel::codeSide(Coder& coder, bool upper, SideKind kind, const Situ
   const unsigned phase = p.inCell ? 1 : 0;
   const unsigned second = p.inCell ? kSideKinds + (kind * kMasses + s.mass) * kErrors + s.error
                                    : static_cast<unsigned>(kind);
-  return sideMixer_.code(coder, upper, e,
-                         {((phase * kSideKinds + kind) * kSizes + s.size) * 3 + q.axis, second});
+  unsigned first = ((phase * kSideKinds + kind) * kSizes + s.size) * 3 + q.axis;
+  if (p.phaseSpeaks) {
+    e.add(p.phaseEvidence);
+    e.add(side_[11][(kind * kLogits + fine(p.phaseEvidence)) * kPhaseOpens + q.open]);
+    first = kSideSets + (kind * 3 + q.axis) * kPhaseOpens + q.open;
+  }
+  return sideMixer_.code(coder, upper, e, {first, second});
 }
 
 inline void DecisionModel::addSideContexts(unsigned z, const Situation& s, const Question& q,
@@ -280,7 +289,8 @@ bool DecisionModel::codeMore(Coder& coder, bool more, std::uint32_t count, std::
   add(2, ((t * 8 + doubtClass) * 6 + balance) * 3 + q.axis);
   add(3, (t * kDistances + low) * kDistances + high);
   add(4, (t * 8 + entropy::classOf(sparseness, 3, 0, 8)) * 6 + s.size / 3);
-  return countMixer_.code(coder, more, e, {t, t});
+  if (p.phaseSpeaks) add(5, (t * kLogits + fine(p.phaseEvidence)) * kPhaseOpens + q.open);
+  return countMixer_.code(coder, more, e, {t + (p.phaseSpeaks ? kCounts : 0), t});
 }
 
 /// The number of points in the upper half is spread around its mean.

@@ -7,6 +7,7 @@
 #include "geometry/predictive/density.h"
 #include "geometry/predictive/features.h"
 #include "geometry/predictive/known_points.h"
+#include "geometry/predictive/phase_lattice.h"
 #include "geometry/predictive/surface_fit.h"
 
 namespace bspc::geometry::predictive {
@@ -35,8 +36,11 @@ struct Predictors {
   Coordinates coordinates;
   Density density;
   AxisValues axisValues;
+  PhaseHistograms phases;
   float planeEvidence = 0;
   float quadricEvidence = 0;
+  float phaseEvidence = 0;
+  bool phaseSpeaks = false;
 
   /// Before the first question about a cell that is divided breadth first.
   void startBreadthFirst(const Vector3& centre, float side) {
@@ -108,6 +112,7 @@ struct Predictors {
       density.ask(q, near, spacing, inCell ? kDensityEntries : Neighbourhood::kRoom);
     }
     if (features.has(Features::kAxisValues)) axisValues.ask(q);
+    askPhase(q);
   }
 
   /// The better of the two fits.
@@ -116,7 +121,25 @@ struct Predictors {
   /// What the point at a place of this cell would have been predicted by; it joins what is known.
   void learn(KnownPoints& known, const GridPoint& position, float px, float py, float pz);
 
+  /// What is remembered of points wherever they lie.
+  void learnCoordinates(const GridPoint& position) {
+    if (features.has(Features::kAxisValues)) axisValues.add(position);
+    for (unsigned k = 0; k < 3; ++k) {
+      if (phases[k].isActive()) phases[k].add(position[k]);
+    }
+  }
+
  private:
+  void askPhase(const Question& q) {
+    const PhaseHistogram& histogram = phases[q.axis];
+    phaseSpeaks = q.open <= histogram.maxLevel();
+    phaseEvidence = 0;
+    if (!phaseSpeaks) return;
+    const PhaseHistogram::Sides sides = histogram.sides(q.value, q.open);
+    phaseEvidence = entropy::naturalLog((static_cast<float>(sides.upper) + 0.02F) /
+                                        (static_cast<float>(sides.lower) + 0.02F));
+  }
+
   static constexpr unsigned kDensityEntries = 24;
   bool fitted_ = false;
 };
@@ -154,7 +177,7 @@ inline void Predictors::learn(KnownPoints& known, const GridPoint& position, flo
   }
   const auto index = static_cast<std::uint32_t>(known.size());
   known.push_back(point);
-  if (features.has(Features::kAxisValues)) axisValues.add(position);
+  learnCoordinates(position);
   near.addDecoded(px, py, pz, index);
   if (points.full()) return;
   points.add(px, py, pz, index);

@@ -6,8 +6,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <memory>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "bspc/error.h"
@@ -16,6 +21,7 @@
 #include "geometry/kd/kd_order.h"
 #include "geometry/kd/kd_schedule.h"
 #include "geometry/predictive/tile_header.h"
+#include "geometry/predictive/tile_structure.h"
 
 #if defined(__SSE2__)
 #include <immintrin.h>

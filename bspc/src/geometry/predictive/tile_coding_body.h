@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <numeric>
 
 #include "bspc/error.h"
 #include "geometry/cell_output.h"
 #include "geometry/kd/kd_order.h"
 #include "geometry/kd/kd_schedule.h"
+#include "geometry/predictive/set_coder.h"
 #include "geometry/predictive/tile_header.h"
+#include "geometry/predictive/tile_structure.h"
 #include "geometry/predictive/tree_coder.h"
 
 namespace bspc::geometry::predictive {
@@ -20,39 +23,74 @@ inline namespace BSPC_LANE_SET {
 /// Calls of working() between two of the progress callback: some tens of milliseconds.
 constexpr unsigned kProgressStep = 1024;
 
-/// The encoder's points, in Morton order.
+/// Input indices in the order of the tree's leaves: x, y and z are halved in turn.
+inline std::vector<std::uint32_t> mortonOrder(Span<const GridPoint> points,
+                                              const GridPoint& extent) {
+  const std::uint32_t longest = *std::max_element(extent.begin(), extent.end());
+  TileInput tile;
+  tile.points = points;
+  tile.extent = extent;
+  return KdOrder(tile, KdSchedule({longest, longest, longest})).takeOrder();
+}
+
+/// The encoder's points, from the tile's lower corner, and those of them that the tree is to code
+/// next, in Morton order.
 class SortedPoints {
  public:
-  SortedPoints(const TileInput& tile, const std::vector<std::uint32_t>& order,
-               const PointProgress& progress)
-      : progress_(progress) {
-    points_.reserve(order.size());
-    for (const std::uint32_t i : order) {
-      GridPoint point = tile.points[i];
-      for (unsigned k = 0; k < 3; ++k) point[k] -= tile.lower[k];
-      points_.push_back(point);
+  SortedPoints(const TileInput& tile, const PointProgress& progress)
+      : progress_(progress), extent_(tile.extent) {
+    all_.assign(tile.points.begin(), tile.points.end());
+    for (GridPoint& p : all_) {
+      for (unsigned k = 0; k < 3; ++k) p[k] -= tile.lower[k];
     }
+    order_.reserve(all_.size());
+  }
+
+  const std::vector<GridPoint>& all() const { return all_; }
+  const GridPoint& input(std::uint32_t index) const { return all_[index]; }
+
+  void select(std::vector<std::uint32_t> indices) {
+    std::vector<GridPoint> chosen;
+    chosen.reserve(indices.size());
+    for (const std::uint32_t i : indices) chosen.push_back(all_[i]);
+    const std::vector<std::uint32_t> sequence = mortonOrder(chosen, extent_);
+    sorted_.clear();
+    indices_.clear();
+    for (const std::uint32_t i : sequence) {
+      sorted_.push_back(chosen[i]);
+      indices_.push_back(indices[i]);
+    }
+    emitted_ = 0;
   }
 
   std::uint32_t countUpper(std::uint32_t first, std::uint32_t count, unsigned axis,
                            std::uint32_t value) const {
-    const auto begin = points_.begin() + first;
+    const auto begin = sorted_.begin() + first;
     const auto reached = std::partition_point(begin, begin + count,
                                               [&](const GridPoint& p) { return p[axis] < value; });
     return static_cast<std::uint32_t>(begin + count - reached);
   }
   void emit(const GridPoint& /*point*/, std::uint32_t count, std::uint32_t /*node*/) {
-    done_ += count;
+    for (; count > 0; --count) order_.push_back(indices_[emitted_++]);
   }
+  void append(const GridPoint& /*point*/, std::uint32_t index) { order_.push_back(index); }
+  std::size_t size() const { return order_.size(); }
+  const GridPoint& at(std::size_t i) const { return all_[order_[i]]; }
+  std::vector<std::uint32_t> takeOrder() { return std::move(order_); }
+
   static void added(std::uint32_t /*parent*/, std::uint32_t /*node*/) {}
   void working(std::uint64_t /*bytes*/) {
-    if (++calls_ % kProgressStep == 0 && progress_) progress_(done_);
+    if (++calls_ % kProgressStep == 0 && progress_) progress_(order_.size());
   }
 
  private:
   const PointProgress& progress_;
-  std::vector<GridPoint> points_;
-  std::uint64_t done_ = 0;
+  GridPoint extent_;
+  std::vector<GridPoint> all_;
+  std::vector<GridPoint> sorted_;       ///< those for the tree
+  std::vector<std::uint32_t> indices_;  ///< of them in all_
+  std::size_t emitted_ = 0;             ///< how many of them the tree has coded
+  std::vector<std::uint32_t> order_;    ///< indices in all_ of all that are coded
   std::uint64_t calls_ = 0;
 };
 
@@ -66,9 +104,15 @@ class CollectedPoints {
                                   unsigned /*axis*/, std::uint32_t /*value*/) {
     return 0;
   }
+  static void select(const std::vector<std::uint32_t>& /*indices*/) {}
+  static GridPoint input(std::uint32_t /*index*/) { return {}; }
   void emit(const GridPoint& point, std::uint32_t count, std::uint32_t node) {
     output_.leaf(point, count, cellOf(node));
   }
+  /// A point that is no tree's.
+  void append(const GridPoint& point, std::uint32_t /*index*/) { output_.leaf(point, 1, 0); }
+  std::size_t size() const { return out_.points.size(); }
+  const GridPoint& at(std::size_t i) const { return out_.points[i]; }
   void added(std::uint32_t parent, std::uint32_t /*node*/) {
     if (!cells_.empty()) cells_.push_back(cells_[parent]);
   }
@@ -84,6 +128,8 @@ class CollectedPoints {
     std::uint32_t next = 0;
     tree.forEachUndivided([&](std::uint32_t node) { cells_[node] = next++; });
   }
+  /// All points lie in the one cell that there is.
+  void forgetCells() { cells_.clear(); }
   std::uint64_t cellOf(std::uint32_t node) const { return cells_.empty() ? 0 : cells_[node]; }
   CellOutput& output() { return output_; }
 
@@ -102,11 +148,17 @@ inline unsigned gridBits(const GridPoint& extent) {
   return entropy::bitLength(*std::max_element(extent.begin(), extent.end()));
 }
 
-/// Input indices in the order of the tree's leaves: x, y and z are halved in turn.
-inline std::vector<std::uint32_t> mortonOrder(const TileInput& tile) {
-  const std::uint32_t longest = *std::max_element(tile.extent.begin(), tile.extent.end());
-  const KdSchedule schedule({longest, longest, longest});
-  return KdOrder(tile, schedule).takeOrder();
+/// Codes the frequencies of the lattices that axes have.
+template <class Coder>
+void codePhases(Coder& coder, const Features& features, const TileStructure& structure,
+                PhaseHistograms& phases) {
+  constexpr std::uint32_t kRarely = 2048;  // of 65536
+  if (!features.has(Features::kPhase)) return;
+  for (unsigned k = 0; k < 3; ++k) {
+    const std::uint32_t frequency = structure.phases[k];
+    if (!coder.fixedBit(kRarely, frequency != 0)) continue;
+    phases[k] = PhaseHistogram(static_cast<std::uint32_t>(coder.wide(frequency, 32)));
+  }
 }
 
 /// The middle of the part of a cell that lies in the tile's box.
@@ -145,30 +197,41 @@ inline EncodedTile encode(const TileInput& tile, const PointProgress& progress) 
                     std::to_string(tile.points.size()));
   }
   EncodedTile result;
-  result.order = mortonOrder(tile);
-  SortedPoints points(tile, result.order, progress);
+  SortedPoints points(tile, progress);
+  const auto count = static_cast<std::uint32_t>(tile.points.size());
+  std::vector<std::uint32_t> all(count);
+  std::iota(all.begin(), all.end(), 0U);
+  const Features features = featuresOf(std::clamp(tile.wishes.effort, kLeastEffort, kMostEffort));
+  const TileStructure structure = findStructure(points.all(), tile.extent, features);
   using Encoding = TreeCoder<entropy::SymbolWriter, SortedPoints>;
   std::unique_ptr<Encoding> tree;
   for (unsigned layer = 0; layer < tile.layers; ++layer) {
     entropy::SymbolWriter coder;
     if (layer == 0) {
-      Features features;
-      const unsigned effort = std::clamp(tile.wishes.effort, kLeastEffort, kMostEffort);
-      codeFeatures(coder, effort, features);
+      Features coded;
+      codeFeatures(coder, tile.wishes.effort, coded);
       // Too large for the stack of a thread.
-      const auto count = static_cast<std::uint32_t>(tile.points.size());
       tree =
           std::make_unique<Encoding>(features, tile.extent, gridBits(tile.extent), count, points);
+      codePhases(coder, features, structure, tree->predictors().phases);
       tree->startSet(count);
+      if (!structure.isSpecial()) points.select(all);
     }
     if (layer + 1 < tile.layers) {
-      tree->coarseLayer(coder, cellsOfLayer(tile.points.size(), layer, tile.layers));
+      // Cells would not go with mirrors and images, which are worth more than the coarse layers.
+      const std::uint64_t cells =
+          structure.isSpecial() ? 0 : cellsOfLayer(tile.points.size(), layer, tile.layers);
+      tree->coarseLayer(coder, cells);
       result.coarse.push_back(summaryOf(*tree));
+    } else if (tree->isUndivided()) {
+      SetCoder<entropy::SymbolWriter, SortedPoints>(features, tile.extent, *tree, points)
+          .code(coder, structure, count, std::move(all));
     } else {
       tree->finalLayer(coder);
     }
     result.layers.push_back(coder.finish());
   }
+  result.order = points.takeOrder();
   result.version = 0;
   return result;
 }
@@ -193,11 +256,16 @@ inline DecodedTile decode(const TileToDecode& tile, const PointProgress& progres
       codeFeatures(coder, 0, features);
       const auto count = static_cast<std::uint32_t>(tile.points);
       tree = std::make_unique<Decoding>(features, tile.extent, bits, count, points);
+      codePhases(coder, features, {}, tree->predictors().phases);
       tree->startSet(count);
     }
     if (layer + 1 < tile.layers) {
       tree->coarseLayer(coder, 0);
       if (tile.cellLevel == layer) points.numberCells(*tree);
+    } else if (tree->isUndivided()) {
+      points.forgetCells();
+      SetCoder<entropy::SymbolReader, CollectedPoints>(tree->features(), tile.extent, *tree, points)
+          .code(coder, {}, static_cast<std::uint32_t>(tile.points), {});
     } else {
       tree->finalLayer(coder);
     }

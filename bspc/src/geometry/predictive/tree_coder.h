@@ -37,6 +37,8 @@ class TreeCoder {
         p_(features, bits, count) {}
 
   const NodeTree& nodes() const { return nodes_; }
+  const Features& features() const { return features_; }
+  bool isUndivided() const { return level_ == 0; }
   Predictors& predictors() { return p_; }
 
   /// A set of points of its own: nothing is known of it yet, but what was learned stays.
