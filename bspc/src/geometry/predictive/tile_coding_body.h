@@ -201,7 +201,8 @@ inline EncodedTile encode(const TileInput& tile, const PointProgress& progress) 
   const auto count = static_cast<std::uint32_t>(tile.points.size());
   std::vector<std::uint32_t> all(count);
   std::iota(all.begin(), all.end(), 0U);
-  const Features features = featuresOf(std::clamp(tile.wishes.effort, kLeastEffort, kMostEffort));
+  const unsigned effort = std::clamp(tile.wishes.effort, kLeastEffort, kMostEffort);
+  const Features features = featuresOf(effort);
   const TileStructure structure = findStructure(points.all(), tile.extent, features);
   using Encoding = TreeCoder<entropy::SymbolWriter, SortedPoints>;
   std::unique_ptr<Encoding> tree;
@@ -209,7 +210,7 @@ inline EncodedTile encode(const TileInput& tile, const PointProgress& progress) 
     entropy::SymbolWriter coder;
     if (layer == 0) {
       Features coded;
-      codeFeatures(coder, tile.wishes.effort, coded);
+      codeFeatures(coder, effort, coded);
       // Too large for the stack of a thread.
       tree =
           std::make_unique<Encoding>(features, tile.extent, gridBits(tile.extent), count, points);
