@@ -4,6 +4,7 @@
 #include <random>
 
 #include "geometry/geometry_method.h"
+#include "support/array_sets.h"
 
 namespace bspc::test {
 
@@ -28,6 +29,21 @@ std::vector<double> noise(unsigned count, std::uint64_t range) {
   return xyz;
 }
 
+/// Smooth and random values of several types.
+std::vector<ArrayValues> goldenArrays(std::size_t count) {
+  std::vector<ArrayValues> arrays = arraysOfAllTypes(count);
+  ArrayValues height;
+  height.name = "smooth";
+  height.type = ScalarType::UInt16;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t v = 1000 + i % 40 * 3 + i / 40 * 7;
+    height.values.push_back(static_cast<std::uint8_t>(v));
+    height.values.push_back(static_cast<std::uint8_t>(v >> 8));
+  }
+  arrays.push_back(std::move(height));
+  return arrays;
+}
+
 }  // namespace
 
 std::vector<GoldenFile> goldenFiles() {
@@ -36,12 +52,13 @@ std::vector<GoldenFile> goldenFiles() {
     const std::string name = methodName(method);
     const auto add = [&](const std::string& what, std::vector<double> xyz, ScalarType type,
                          Layout layout, unsigned layers, const GridRequest& grid) {
-      GoldenFile file{std::string(name).append("_").append(what), std::move(xyz), type, {}};
+      GoldenFile file{std::string(name).append("_").append(what), std::move(xyz), type, {}, {}};
       file.options.method = method;
       file.options.layout = layout;
       file.options.layers = layers;
       file.options.grid = grid;
       files.push_back(std::move(file));
+      return &files.back();
     };
     const GridRequest any = GridRequest::automatic();
     add("terrain", terrain(40, 1, 0), ScalarType::Float32, Layout::Progressive, 1, any);
@@ -53,28 +70,35 @@ std::vector<GoldenFile> goldenFiles() {
         ScalarType::Float64, Layout::Progressive, 2, any);
     add("crowd", noise(3000, 12), ScalarType::Float32, Layout::Progressive, 1, any);
     add("one_point", {1, 2, 3}, ScalarType::Float32, Layout::Progressive, 1, any);
+    GoldenFile* arrays =
+        add("arrays", terrain(40, 1, 0), ScalarType::Float32, Layout::Progressive, 2, any);
+    arrays->arrays = goldenArrays(1600);
+    arrays->options.effort = method == Method::Fast ? std::optional<unsigned>(2) : std::nullopt;
+    arrays->options.keepOrder = method == Method::Kd;
+    arrays->options.metadata.crs = "EPSG:25832";
+    arrays->options.metadata.entries = {{"title", "terrain"}};
     add("empty", {}, ScalarType::Float32, Layout::Progressive, 1, any);
   }
   return files;
 }
 
-Bytes encodeGolden(const GoldenFile& file, std::vector<double>* decodedOrder) {
+Bytes encodeGolden(const GoldenFile& file, DecodedOrder* decoded) {
   EncodeOptions options = file.options;
   options.wantOrder = true;
   MemorySink sink;
   EncodeReport report;
   const std::size_t count = file.xyz.size() / 3;
-  if (file.type == ScalarType::Float32) {
-    const std::vector<float> narrow(file.xyz.begin(), file.xyz.end());
-    report = encode(PointSetView(narrow.data(), count), sink, options);
-  } else {
-    report = encode(PointSetView(file.xyz.data(), count), sink, options);
-  }
-  if (decodedOrder != nullptr) {
-    decodedOrder->clear();
-    for (const std::uint64_t i : report.order) {
-      for (std::size_t k = 0; k < 3; ++k) decodedOrder->push_back(file.xyz[3 * i + k]);
-    }
+  const std::vector<float> narrow(file.xyz.begin(), file.xyz.end());
+  PointSetView points = file.type == ScalarType::Float32 ? PointSetView(narrow.data(), count)
+                                                         : PointSetView(file.xyz.data(), count);
+  for (const ArrayValues& array : file.arrays) points.addArray(array.view());
+  report = encode(points, sink, options);
+  if (decoded == nullptr) return sink.take();
+  for (const std::uint64_t i : report.order) {
+    for (std::size_t k = 0; k < 3; ++k) decoded->xyz.push_back(file.xyz[3 * i + k]);
+    std::string tuples;
+    for (const ArrayValues& array : file.arrays) tuples += tupleOf(array, i);
+    decoded->tuples.push_back(std::move(tuples));
   }
   return sink.take();
 }
