@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "cli/text.h"
 #include "cli/usage_error.h"
 #include "formats/number_text.h"
 
@@ -13,9 +14,12 @@ namespace {
 
 std::string namesOf(const std::vector<ArrayDescription>& arrays) {
   if (arrays.empty()) return "it has none";
+  constexpr std::size_t kShown = 20;
   std::string names = "it has ";
-  for (std::size_t a = 0; a < arrays.size(); ++a) names += (a > 0 ? ", " : "") + arrays[a].name;
-  return names;
+  for (std::size_t a = 0; a < arrays.size() && a < kShown; ++a) {
+    names += (a > 0 ? ", " : "") + oneLine(arrays[a].name, 40);
+  }
+  return names + (arrays.size() > kShown ? ", ..." : "");
 }
 
 std::size_t indexOf(const std::string& name, const std::vector<ArrayDescription>& arrays) {
@@ -25,7 +29,7 @@ std::size_t indexOf(const std::string& name, const std::vector<ArrayDescription>
   for (const ArrayDescription& array : arrays) {
     const auto& parts = array.componentNames;
     if (std::find(parts.begin(), parts.end(), name) == parts.end()) continue;
-    throw UsageError("\"" + name + "\" is a component of the array " + array.name +
+    throw UsageError("\"" + name + "\" is a component of the array " + oneLine(array.name, 40) +
                      "; name that one");
   }
   throw UsageError("the model has no array \"" + name + "\"; " + namesOf(arrays));

@@ -130,7 +130,7 @@ std::string arrayErrorsText(const EncodeReport& report) {
   std::string text;
   for (const ArrayReport& array : report.arrays) {
     if (array.greatestError == 0) continue;
-    text += "; " + array.name + " within " + rounded(array.greatestError);
+    text += "; " + oneLine(array.name, 40) + " within " + rounded(array.greatestError);
   }
   return text;
 }

@@ -130,18 +130,6 @@ Json toJson(const FileInfo& info) {
   return json;
 }
 
-/// Text of a file as one line without control characters, cut short.
-std::string oneLine(const std::string& text, std::size_t longest) {
-  std::string line;
-  for (const char c : text.substr(0, longest)) line += c >= 0 && c < ' ' ? ' ' : c;
-  // No half of a character at the end: its later bytes are 10xxxxxx.
-  if (text.size() <= longest) return line;
-  while (!line.empty() && (static_cast<unsigned char>(text[line.size()]) & 0xC0) == 0x80) {
-    line.pop_back();
-  }
-  return line + "...";
-}
-
 std::string padded(const std::string& text, std::size_t width) {
   return text.size() < width ? std::string(width - text.size(), ' ') + text : text;
 }

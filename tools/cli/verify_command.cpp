@@ -163,8 +163,8 @@ class ArrayCheck {
     if (result.mismatch) {
       const std::uint64_t point = result.mismatch->point;
       const std::uint64_t index = fit_.sourceIndex.empty() ? point : fit_.sourceIndex[point];
-      fail("the array " + held_.arrays[result.mismatch->array].name + " differs at point " +
-           withCommas(index) + " of the original, counted from 0");
+      fail("the array " + oneLine(held_.arrays[result.mismatch->array].name, 40) +
+           " differs at point " + withCommas(index) + " of the original, counted from 0");
     }
     return text(result);
   }
@@ -184,9 +184,9 @@ class ArrayCheck {
     const auto& values = original_.values;
     const auto found = std::find_if(values.begin(), values.end(),
                                     [&](const ArrayValues& v) { return v.name == array.name; });
-    if (found == values.end()) fail("it has no array " + array.name);
+    if (found == values.end()) fail("it has no array " + oneLine(array.name, 40));
     if (found->type != array.type || found->components != array.components) {
-      fail(array.name + " is there " + std::to_string(found->components) + " x " +
+      fail(oneLine(array.name, 40) + " is there " + std::to_string(found->components) + " x " +
            scalarName(found->type) + " instead of " + std::to_string(array.components) + " x " +
            scalarName(array.type));
     }
@@ -242,7 +242,8 @@ class ArrayCheck {
     if (info_.keepsOrder) text += " in their order";
     for (std::size_t a = 0; a < held_.arrays.size(); ++a) {
       if (result.greatestErrors[a] == 0) continue;
-      text += ", " + held_.arrays[a].name + " within " + rounded(result.greatestErrors[a]);
+      text +=
+          ", " + oneLine(held_.arrays[a].name, 40) + " within " + rounded(result.greatestErrors[a]);
     }
     return text;
   }
