@@ -15,6 +15,7 @@
 #include <vtkFloatArray.h>
 #include <vtkIntArray.h>
 #include <vtkLongLongArray.h>
+#include <vtkMath.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -70,9 +71,10 @@ PolyData madeScan() {
     const std::array<double, 3> d = {std::sin(theta) * std::cos(phi),
                                      std::sin(theta) * std::sin(phi), std::cos(theta)};
     const double radius = 30 + std::sin(5 * theta) * std::cos(3 * phi) + 0.003 * noise(random);
-    const auto millimetres = [radius](double v) { return std::round(1000 * radius * v) / 1000; };
-    points->InsertNextPoint(500000 + millimetres(d[0]), 5400000 + millimetres(d[1]),
-                            100 + millimetres(d[2]));
+    const auto millimetres = [&](double origin, std::size_t k) {
+      return std::round(1000 * (origin + radius * d[k])) / 1000;
+    };
+    points->InsertNextPoint(millimetres(500000, 0), millimetres(5400000, 1), millimetres(100, 2));
     directions.push_back(d);
   }
   data->SetPoints(points);
@@ -86,15 +88,18 @@ PolyData madeScan() {
   for (std::size_t i = 0; i < directions.size(); ++i) {
     const auto id = static_cast<vtkIdType>(i);
     const std::array<double, 3>& d = directions[i];
+    std::array<double, 3> normal = d;
+    for (double& n : normal) n += 0.01 * noise(random);
+    vtkMath::Normalize(normal.data());
+    normals->SetTuple(id, normal.data());
     for (std::size_t k = 0; k < 3; ++k) {
-      normals->SetComponent(id, static_cast<int>(k), d[k]);
       colours->SetComponent(id, static_cast<int>(k),
                             std::floor(128 + 90 * std::sin(4 * d[k]) + 2 * noise(random)));
     }
     const int kind = d[2] > 0.3 ? 6 : d[2] > -0.2 ? 5 : 2;
     classes->SetValue(id, kind);
     labels->SetValue(id, kind == 6 ? "building" : kind == 5 ? "vegetation" : "ground");
-    curvature->SetValue(id, std::sin(4 * d[0]) * std::cos(5 * d[1]));
+    curvature->SetValue(id, std::sin(4 * d[0]) * std::cos(5 * d[1]) + 0.001 * noise(random));
     time += 900 + static_cast<long long>(random() % 200);
     times->SetValue(id, time);
   }
