@@ -57,7 +57,7 @@ TEST(DamagedArrays, APrefixHasArraysOfItsWholeLayers) {
   OpenOptions partial;
   partial.allowPartial = true;
   bool anyLayer = false;
-  for (std::size_t size = 0; size < good.size(); size += 7) {
+  for (std::size_t size = 7; size < good.size(); size += 97) {
     const Bytes bad(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size));
     ASSERT_FALSE(decodes(bad)) << size;
     try {

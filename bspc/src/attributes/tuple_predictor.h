@@ -108,6 +108,10 @@ class TuplePredictor {
 
   /// The two components that are expected to be smaller come first; the third follows from them.
   void startUnit() {
+    if (near_->ranks.empty()) {
+      unitOrder_ = {0, 1, 2};
+      return;
+    }
     for (std::uint32_t c = 0; c < 3; ++c) expected_[c] = mean(c);
     std::uint32_t last = 0;
     for (std::uint32_t c = 1; c < 3; ++c) {

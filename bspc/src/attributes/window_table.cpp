@@ -29,26 +29,41 @@ Axes axesOf(Span<const GridPoint> points) {
   return axes;
 }
 
-/// Distance and, below it, how many points stand between.
-std::int32_t keyOf(const Axes& axes, std::size_t i, std::size_t step) {
-  const std::size_t j = i - step;
-  const std::int32_t distance = std::abs(axes[0][j] - axes[0][i]) +
-                                std::abs(axes[1][j] - axes[1][i]) +
-                                std::abs(axes[2][j] - axes[2][i]);
-  return distance << kPlaceBits | static_cast<std::int32_t>(step - 1);
-}
+/// Points that are searched for together, so that compilers can do several at a time.
+constexpr std::size_t kBlock = 64;
 
-/// The three least of the keys offered.
-struct Least {
-  static constexpr std::int32_t kNone = 0x7FFFFFFF;
-  std::array<std::int32_t, WindowTable::kNeighbours> keys{kNone, kNone, kNone};
+constexpr std::int32_t kNone = 0x7FFFFFFF;
 
-  void offer(std::int32_t key) {
-    const std::int32_t second = std::max(keys[0], key);
-    keys[0] = std::min(keys[0], key);
-    const std::int32_t third = std::max(keys[1], second);
-    keys[1] = std::min(keys[1], second);
-    keys[2] = std::min(keys[2], third);
+/// The three least keys of each point of a block, in order. A key is a distance and, below it, how
+/// many points stand between.
+struct LeastKeys {
+  std::array<std::array<std::int32_t, kBlock>, WindowTable::kNeighbours> keys;
+
+  LeastKeys() {
+    for (auto& row : keys) row.fill(kNone);
+  }
+
+  void offer(std::size_t b, std::int32_t key) {
+    const std::int32_t second = std::max(keys[0][b], key);
+    keys[0][b] = std::min(keys[0][b], key);
+    const std::int32_t third = std::max(keys[1][b], second);
+    keys[1][b] = std::min(keys[1][b], second);
+    keys[2][b] = std::min(keys[2][b], third);
+  }
+
+  /// Offers the points `step` places before those of the block that starts at `first`.
+  void offerStep(const Axes& axes, std::size_t first, std::size_t count, std::int32_t step) {
+    const std::int32_t* x = axes[0].data() + first;
+    const std::int32_t* y = axes[1].data() + first;
+    const std::int32_t* z = axes[2].data() + first;
+    for (std::size_t b = 0; b < count; ++b) {
+      const std::int32_t* x1 = x + b;
+      const std::int32_t* y1 = y + b;
+      const std::int32_t* z1 = z + b;
+      const std::int32_t distance = std::abs(*x1 - *(x1 - step)) + std::abs(*y1 - *(y1 - step)) +
+                                    std::abs(*z1 - *(z1 - step));
+      offer(b, distance << kPlaceBits | (step - 1));
+    }
   }
 };
 
@@ -56,20 +71,34 @@ struct Least {
 
 WindowTable::WindowTable(Span<const GridPoint> points) : steps_(points.size()) {
   const Axes axes = axesOf(points);
-  std::array<std::int32_t, kWindow> keys{};
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    Least least;
-    if (i >= kWindow) {
-      for (std::size_t step = 1; step <= kWindow; ++step) keys[step - 1] = keyOf(axes, i, step);
-      for (const std::int32_t key : keys) least.offer(key);
-    } else {
-      for (std::size_t step = 1; step <= i; ++step) least.offer(keyOf(axes, i, step));
-    }
+  const auto store = [this](std::size_t i, const LeastKeys& least, std::size_t b) {
     for (unsigned n = 0; n < kNeighbours; ++n) {
-      const std::int32_t key = least.keys[n] != Least::kNone ? least.keys[n] : least.keys[n - 1];
-      least.keys[n] = key;
-      steps_[i][n] = static_cast<std::uint8_t>(key % static_cast<std::int32_t>(kWindow) + 1);
+      const std::int32_t key = least.keys[n][b];
+      steps_[i][n] = key != kNone
+                         ? static_cast<std::uint8_t>(key % static_cast<std::int32_t>(kWindow) + 1)
+                         : steps_[i][n - 1];
     }
+  };
+  // The first points have fewer before them.
+  const std::size_t full = std::min<std::size_t>(points.size(), kWindow);
+  for (std::size_t i = 1; i < full; ++i) {
+    LeastKeys least;
+    for (std::size_t step = 1; step <= i; ++step) {
+      least.offerStep(axes, i, 1, static_cast<std::int32_t>(step));
+    }
+    store(i, least, 0);
+  }
+  for (std::size_t first = full; first < points.size(); first += kBlock) {
+    LeastKeys least;
+    const std::size_t count = std::min(kBlock, points.size() - first);
+    for (std::int32_t step = 1; step <= static_cast<std::int32_t>(kWindow); ++step) {
+      if (count == kBlock) {
+        least.offerStep(axes, first, kBlock, step);
+      } else {
+        least.offerStep(axes, first, count, step);
+      }
+    }
+    for (std::size_t b = 0; b < count; ++b) store(first + b, least, b);
   }
 }
 
