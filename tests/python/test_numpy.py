@@ -1,5 +1,6 @@
 """bspc.read, bspc.write and bspc.encode: NumPy arrays in and out."""
 
+import ast
 import pathlib
 import tempfile
 import unittest
@@ -137,6 +138,24 @@ class Numpy(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "no array"):
             bspc.read(bspc.encode(self.points), arrays=["a"])
         self.assertFalse(self.path.exists())
+
+    def test_the_classes_have_documentation_and_type_stubs(self):
+        for cls in (bspc.vtkBSPReader, bspc.vtkBSPWriter):
+            path = pathlib.Path(bspc.__file__).with_name(cls.__name__ + ".pyi")
+            (stub,) = (
+                node for node in ast.parse(path.read_text()).body if isinstance(node, ast.ClassDef)
+            )
+            stubbed = {node.name for node in stub.body if isinstance(node, ast.FunctionDef)}
+            methods = {
+                name
+                for name, value in vars(cls).items()
+                if not name.startswith("_") and callable(value) and not isinstance(value, type)
+            }
+            self.assertEqual(stubbed, methods)
+        self.assertIn("its faces belong to it", bspc.vtkBSPReader.SetBox.__doc__)
+        self.assertIn("keep", bspc.vtkBSPWriter.SetKeepOrder.__doc__.lower())
+        for function in (bspc.read, bspc.write, bspc.encode):
+            self.assertGreater(len(function.__doc__), 50)
 
 
 if __name__ == "__main__":
