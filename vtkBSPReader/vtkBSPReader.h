@@ -154,6 +154,7 @@ class VTKBSPREADER_EXPORT vtkBSPReader : public vtkAbstractPolyDataReader {
   /**
    * What the file says about itself, known after UpdateInformation(): points and tiles of the
    * whole file, bounds (x min, x max, …; an empty file has those of vtkMath::UninitializeBounds).
+   * Bounds of coordinates that are kept bit for bit may be a little wider than the points are.
    */
   vtkGetMacro(NumberOfPointsInFile, vtkIdType);
   vtkGetMacro(NumberOfTiles, vtkIdType);

@@ -1,6 +1,6 @@
 """Writes the type stub of a wrapped VTK class from the signatures in its documentation.
 
-Usage: write_stub.py MODULE CLASS FILE.pyi
+Usage: write_vtk_stub.py MODULE CLASS FILE.pyi
 """
 
 from __future__ import annotations
