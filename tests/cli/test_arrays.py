@@ -363,7 +363,7 @@ class Exactness(CommandTest):
 
 class Streams(ArrayTest):
     def test_larger_than_memory_carry_arrays(self):
-        self.rows = rows_of(300000)
+        self.rows = rows_of(130000)
         write_ply(self.path("in.ply"), self.rows, COLUMNS)
         columns, rows = self.restore("--memory", "0.03")
         self.assertEqual(columns, COLUMNS)
