@@ -3,8 +3,10 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "bspc/error.h"
+#include "point_selection.h"
 
 namespace bspc {
 
@@ -63,17 +65,11 @@ bool BoxFilter::touches(const GridPoint& lower, const GridPoint& upper) const {
 }
 
 void BoxFilter::apply(DecodedPoints& points) const {
-  std::size_t kept = 0;
+  std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < points.points.size(); ++i) {
-    if (!contains(points.points[i])) continue;
-    points.points[kept] = points.points[i];
-    if (!points.counts.empty()) points.counts[kept] = points.counts[i];
-    if (!points.cellIds.empty()) points.cellIds[kept] = points.cellIds[i];
-    ++kept;
+    if (contains(points.points[i])) kept.push_back(i);
   }
-  points.points.resize(kept);
-  if (!points.counts.empty()) points.counts.resize(kept);
-  if (!points.cellIds.empty()) points.cellIds.resize(kept);
+  keepPoints(points, kept);
 }
 
 }  // namespace bspc

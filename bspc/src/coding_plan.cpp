@@ -22,6 +22,8 @@ constexpr std::uint64_t kFastTilePoints = 65536;
 constexpr std::uint64_t kOneFastTile = std::uint64_t{1} << 19;
 constexpr unsigned kDefaultEffort = 2;
 constexpr unsigned kMaxEffort = 4;
+/// For methods without a choice, which are for those who want small files.
+constexpr unsigned kFullArrayEffort = 6;
 
 /// Each layer has a quarter of the next one's representatives.
 unsigned quarteredLayers(std::uint64_t points) {
@@ -82,6 +84,7 @@ CodingPlan planCoding(const EncodeOptions& options, std::uint64_t points) {
   plan.wishes.stopPoints = options.stopPoints;
   plan.wishes.stopLevel = options.stopLevel;
   plan.wishes.effort = options.effort.value_or(kDefaultEffort);
+  plan.arrayEffort = id == Method::Fast ? plan.wishes.effort : kFullArrayEffort;
   const bool cuts = id == Method::Fast && points > kOneFastTile;
   const std::uint64_t usual = cuts ? kFastTilePoints : kMaxTilePoints;
   plan.tilePoints = std::min(options.tilePoints != 0 ? options.tilePoints : usual, kMaxTilePoints);

@@ -13,6 +13,7 @@ struct CodingPlan {
   geometry::CodingWishes wishes;
   std::uint64_t tilePoints = 0;  ///< most points of a tile, at least 1
   unsigned layers = 1;
+  unsigned arrayEffort = 2;  ///< as attributes::ArrayWishes has it
 };
 
 /// Throws Error(InvalidArgument) for wishes that contradict each other or are out of range.

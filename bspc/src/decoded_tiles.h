@@ -12,9 +12,7 @@ namespace bspc {
 /// Gathers decoded tiles into the points of the file, within the limits.
 class DecodedTiles {
  public:
-  DecodedTiles(const DecodeLimits& limits, bool counts, bool cellIds)
-      : limits_(limits),
-        bytesPerPoint_(sizeof(GridPoint) + (counts ? 8U : 0U) + (cellIds ? 8U : 0U)) {}
+  explicit DecodedTiles(const DecodeLimits& limits) : limits_(limits) {}
 
   /// Throws Error(LimitExceeded).
   void append(DecodedPoints&& tile);
@@ -23,7 +21,6 @@ class DecodedTiles {
 
  private:
   const DecodeLimits& limits_;
-  std::uint64_t bytesPerPoint_;
   DecodedPoints all_;
   std::atomic<std::uint64_t> bytes_{0};  ///< read by other threads
 };

@@ -5,6 +5,7 @@
 #include "container/container_reader.h"
 #include "decoded_tiles.h"
 #include "parallel.h"
+#include "point_selection.h"
 #include "progress_scale.h"
 #include "query.h"
 #include "saturating.h"
@@ -15,7 +16,8 @@ namespace bspc {
 
 namespace {
 
-void addTileInfo(FileInfo& info, const container::TileRecord& tile) {
+void addTileInfo(FileInfo& info, const container::TileLayout& layout,
+                 const container::TileRecord& tile) {
   TileInfo t;
   t.method = static_cast<Method>(tile.method);
   t.methodVersion = tile.version;
@@ -33,8 +35,18 @@ void addTileInfo(FileInfo& info, const container::TileRecord& tile) {
         saturatingAdd(info.layers[l].points, last ? tile.points : tile.coarse[l].representatives);
     if (!last) info.layers[l].spread = std::max(info.layers[l].spread, tile.coarse[l].spread);
     if (l < tile.lacking) continue;
-    info.layers[l].bytes = saturatingAdd(info.layers[l].bytes, tile.chunkSizes[l]);
-    info.geometryBytes = saturatingAdd(info.geometryBytes, tile.chunkSizes[l]);
+    const std::uint64_t bytes = tile.chunkSizes[layout.column(static_cast<unsigned>(l), 0)];
+    info.layers[l].bytes = saturatingAdd(info.layers[l].bytes, bytes);
+    info.geometryBytes = saturatingAdd(info.geometryBytes, bytes);
+  }
+  for (std::size_t column = 0; column < layout.columns(); ++column) {
+    const std::size_t part = layout.partOf(column);
+    const std::uint64_t bytes = tile.chunkSizes[column];
+    if (bytes == container::kNoChunk || part == container::kGeometryPart) continue;
+    std::uint64_t& sum = part == container::kOrderPart
+                             ? info.orderBytes
+                             : info.arrays[part - container::kFirstArrayPart].bytes;
+    sum = saturatingAdd(sum, bytes);
   }
   info.tiles.push_back(t);
 }
@@ -48,7 +60,16 @@ FileInfo describe(const container::ContainerReader& file) {
   info.fileBytes = file.fileBytes();
   info.layers.resize(file.head().layers);
   info.wholeLayers = file.wholeLayers();
-  for (const container::TileRecord& tile : file.tiles()) addTileInfo(info, tile);
+  const unsigned firstLevel = firstArrayLevel(file);
+  for (const ArrayDescription& array : file.head().arrays) {
+    ArrayInfo described;
+    static_cast<ArrayDescription&>(described) = array;
+    described.firstLevel = firstLevel;
+    info.arrays.push_back(std::move(described));
+  }
+  info.metadata = file.head().metadata;
+  info.keepsOrder = file.head().keepsOrder;
+  for (const container::TileRecord& tile : file.tiles()) addTileInfo(info, file.layout(), tile);
   return info;
 }
 
@@ -70,7 +91,8 @@ class Decoder::Impl {
  private:
   void decodeQuery(const Query& query, const DecodeOptions& options,
                    const std::function<std::uint64_t()>& bytesInUse, const TileVisitor& visit);
-  DecodedPoints place(const Query& query, std::size_t index, geometry::DecodedTile decoded) const;
+  DecodedPoints place(const Query& query, std::size_t index, TileContent decoded) const;
+  void addArrays(const Query& query, DecodedTileArrays values, DecodedPoints& points) const;
 
   container::ContainerReader file_;
   FileInfo info_;
@@ -86,11 +108,11 @@ QueryCost Decoder::Impl::cost(const DecodeOptions& options) const {
 /// Moves the decoded tile of that index in the query to its place in the file, and leaves what the
 /// query is about.
 DecodedPoints Decoder::Impl::place(const Query& query, std::size_t index,
-                                   geometry::DecodedTile decoded) const {
+                                   TileContent decoded) const {
   DecodedPoints points;
-  points.points = std::move(decoded.points);
-  points.counts = std::move(decoded.counts);
-  points.cellIds = std::move(decoded.cellIds);
+  points.points = std::move(decoded.points.points);
+  points.counts = std::move(decoded.points.counts);
+  points.cellIds = std::move(decoded.points.cellIds);
   points.level = query.level;
   points.complete = query.complete;
   const GridPoint& lower = file_.tiles()[query.tiles[index]].lower;
@@ -100,8 +122,21 @@ DecodedPoints Decoder::Impl::place(const Query& query, std::size_t index,
     }
   }
   for (std::uint64_t& id : points.cellIds) id += query.firstCells[index];
+  addArrays(query, std::move(decoded.values), points);
   if (query.filter) query.filter->apply(points);
   return points;
+}
+
+void Decoder::Impl::addArrays(const Query& query, DecodedTileArrays values,
+                              DecodedPoints& points) const {
+  for (std::size_t i = 0; i < query.arrays.size(); ++i) {
+    ArrayValues array;
+    static_cast<ArrayDescription&>(array) = file_.head().arrays[query.arrays[i]];
+    array.values = std::move(values.arrays[i].numbers);
+    array.strings = std::move(values.arrays[i].strings);
+    points.arrays.push_back(std::move(array));
+  }
+  if (!values.order.empty()) reorderPoints(points, values.order);
 }
 
 /// Decodes the tiles of a query, on several threads, and hands them on in order.
@@ -120,7 +155,7 @@ void Decoder::Impl::decodeQuery(const Query& query, const DecodeOptions& options
     const std::uint64_t free = limits_.memoryBytes > used ? limits_.memoryBytes - used : 0;
     return place(
         query, i,
-        tileDecoder_.decode(query.tiles[i], query.level, options, free / shares, progress.piece()));
+        tileDecoder_.decode(query.tiles[i], query, options, free / shares, progress.piece()));
   };
   OrderedParallel<DecodedPoints>(query.tiles.size(), threads, produce)
       .run([&](std::size_t /*i*/, DecodedPoints points) { visit(std::move(points)); },
@@ -130,11 +165,15 @@ void Decoder::Impl::decodeQuery(const Query& query, const DecodeOptions& options
 
 DecodedPoints Decoder::Impl::decode(const DecodeOptions& options) {
   const Query query = planQuery(file_, options);
-  DecodedTiles all(limits_, options.wantCounts, options.cellLevel.has_value());
+  DecodedTiles all(limits_);
   decodeQuery(
       query, options, [&all] { return all.bytes(); },
       [&all](DecodedPoints&& points) { all.append(std::move(points)); });
   DecodedPoints result = all.take();
+  if (query.tiles.empty())
+    addArrays(query,
+              DecodedTileArrays{std::vector<attributes::ArrayValues>(query.arrays.size()), {}},
+              result);
   result.level = query.level;
   result.complete = query.complete;
   if (query.thin && result.points.size() > *options.maxPoints) {

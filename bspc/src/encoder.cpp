@@ -3,7 +3,8 @@
 #include <string>
 #include <utility>
 
-#include "bspc/error.h"
+#include "arrays/array_checks.h"
+#include "arrays/array_source.h"
 #include "coding_plan.h"
 #include "container/container_writer.h"
 #include "progress_scale.h"
@@ -17,24 +18,22 @@ namespace {
 /// Share of the time that putting points on the grid takes.
 constexpr double kGridShare = 0.15;
 
-void refuseArrays(const PointSetView& points) {
-  if (points.arrays().empty()) return;
-  throw Error(ErrorCode::Unsupported, "the point set has the array \"" + points.arrays()[0].name +
-                                          "\", and this version stores positions only; leave "
-                                          "the arrays out to store the positions");
-}
-
-void refuseUnstored(const EncodeOptions& options) {
-  if (!options.keepOrder && !options.originalIds && options.metadata.empty()) return;
-  throw Error(ErrorCode::Unsupported,
-              "this version stores neither the order of the points nor metadata; leave them out");
+container::FileHead headOf(const EncodeReport& report, const ArraySource& arrays,
+                           const EncodeOptions& options) {
+  container::FileHead head;
+  head.layers = report.layers;
+  head.grid = report.grid;
+  head.keepsOrder = options.keepOrder;
+  head.metadata = options.metadata;
+  for (std::size_t a = 0; a < arrays.size(); ++a) head.arrays.push_back(arrays.description(a));
+  return head;
 }
 
 }  // namespace
 
 EncodeReport encode(const PointSetView& points, ByteSink& sink, const EncodeOptions& options) {
-  refuseArrays(points);
-  refuseUnstored(options);
+  checkArrays(points.arrays(), points.size(), options);
+  checkMetadata(options.metadata);
   planCoding(options, points.size());  // wishes that cannot be met are refused before any work
   ProgressScale fitting(options.progress, 0, kGridShare);
   const ProgressCallback fittingProgress = [&fitting](double share) {
@@ -55,9 +54,14 @@ EncodeReport encode(const PointSetView& points, ByteSink& sink, const EncodeOpti
 
   ProgressScale coding(options.progress, kGridShare, 1);
   coding.report(0);
-  container::ContainerWriter writer(sink, options.layout, report.grid, report.layers);
+  const ArraySource arrays(points.arrays(), options.originalIds);
+  for (std::size_t a = 0; a < arrays.size(); ++a) {
+    report.arrays.push_back({arrays.description(a).name, 0, 0});
+  }
+  container::ContainerWriter writer(sink, options.layout, headOf(report, arrays, options));
   SharedProgress progress(coding, report.points);
-  SetEncoder(plan, options, progress, writer, report).encode(fit.points, fit.sourceIndex, &points);
+  SetEncoder(plan, options, arrays, progress, writer, report)
+      .encode(fit.points, fit.sourceIndex, &points);
   writer.finish();
   report.fileBytes = writer.bytesWritten();
   coding.report(1);

@@ -7,6 +7,7 @@
 #include "bspc/error.h"
 #include "container/container_reader.h"
 #include "container/container_writer.h"
+#include "joined_head.h"
 #include "progress_scale.h"
 #include "saturating.h"
 
@@ -16,7 +17,7 @@ namespace {
 
 /// A tile of one of the files.
 struct SourceTile {
-  const container::ContainerReader* file = nullptr;
+  std::size_t file = 0;
   std::size_t index = 0;
 };
 
@@ -28,10 +29,18 @@ class Joiner {
     const bool empty = points_ == 0;
     for (std::size_t f = 0; f < files_.size(); ++f) {
       // A file without points puts no demand on the grid.
-      if (empty || !files_[f]->tiles().empty()) takeGrid(f);
+      if (empty || !files_[f]->tiles().empty()) {
+        takeGrid(f);
+        tables_.take(f, files_[f]->head());
+      }
+      metadata_.take(f, files_[f]->head().metadata);
       head_.layers = std::max(head_.layers, files_[f]->head().layers);
     }
-    for (const auto& file : files_) takeTiles(*file);
+    head_.arrays = tables_.arrays();
+    head_.keepsOrder = tables_.keepsOrder();
+    head_.metadata = metadata_.metadata();
+    layout_ = head_.layout();
+    for (std::size_t f = 0; f < files_.size(); ++f) takeTiles(f);
   }
 
   JoinReport write(ByteSink& sink) {
@@ -40,6 +49,7 @@ class Joiner {
     report.layers = head_.layers;
     report.tiles = tiles_.size();
     report.points = points_;
+    report.droppedMetadata = metadata_.dropped();
     report.fileBytes =
         options_.layout == Layout::Streaming ? writeStreaming(sink) : writeProgressive(sink);
     progress_.report(1);
@@ -74,7 +84,8 @@ class Joiner {
     }
   }
 
-  void takeTiles(const container::ContainerReader& file) {
+  void takeTiles(std::size_t f) {
+    const container::ContainerReader& file = *files_[f];
     for (std::size_t i = 0; i < file.tiles().size(); ++i) {
       container::TileRecord tile = file.tiles()[i];
       for (std::size_t k = 0; k < 3; ++k) {
@@ -91,21 +102,55 @@ class Joiner {
         }
         tile.lower[k] += static_cast<std::uint32_t>(shift);
       }
-      tile.addLacking(head_.layers - file.head().layers);
+      rearrange(tile, f);
       head_.tiles.push_back(std::move(tile));
-      tiles_.push_back({&file, i});
+      tiles_.push_back({f, i});
     }
+  }
+
+  /// Puts the chunks of a tile into the columns of the joined file.
+  void rearrange(container::TileRecord& tile, std::size_t f) {
+    // An order that nothing needs is left behind.
+    const bool needsOrder =
+        head_.keepsOrder || std::any_of(tile.arrays.begin(), tile.arrays.end(),
+                                        [](const auto& array) { return array.needsOrder; });
+    if (!needsOrder && tile.order == container::TileOrder::Stored) {
+      tile.order = container::TileOrder::Unknown;
+    }
+    const unsigned more = head_.layers - files_[f]->head().layers;
+    tile.addLacking(more);
+    std::vector<container::TileArray> arrays;
+    for (std::size_t a = 0; a < layout_.arrays.size(); ++a) {
+      arrays.push_back(tile.arrays[tables_.indexIn(f, a)]);
+    }
+    tile.arrays = std::move(arrays);
+    std::vector<std::uint64_t> sizes(layout_.columns(), container::kNoChunk);
+    for (std::size_t column = 0; column < sizes.size(); ++column) {
+      if (tile.hasChunk(layout_, column)) sizes[column] = tile.chunkSizes[sourceColumn(f, column)];
+    }
+    tile.chunkSizes = std::move(sizes);
+  }
+
+  /// The column of a file that a column of the joined one comes from.
+  std::size_t sourceColumn(std::size_t f, std::size_t column) const {
+    const container::TileLayout& source = files_[f]->layout();
+    std::size_t part = layout_.partOf(column);
+    if (part >= container::kFirstArrayPart) {
+      part = container::kFirstArrayPart + tables_.indexIn(f, part - container::kFirstArrayPart);
+    }
+    return source.column(layout_.layerOf(column) - (head_.layers - source.layers), part);
   }
 
   /// The payload of a chunk in a column of the joined file, which the tile has.
   Bytes payload(std::size_t tile, std::size_t column) {
     const SourceTile& source = tiles_[tile];
-    return source.file->chunk(source.index, column - (head_.layers - source.file->head().layers));
+    return files_[source.file]->chunk(source.index, sourceColumn(source.file, column));
   }
 
   std::uint64_t writeProgressive(ByteSink& sink) {
     std::size_t done = 0;
-    const auto all = static_cast<double>(std::max<std::size_t>(tiles_.size() * head_.layers, 1));
+    const auto all =
+        static_cast<double>(std::max<std::size_t>(tiles_.size() * layout_.columns(), 1));
     return container::writeProgressive(sink, head_, [&](std::size_t tile, std::size_t column) {
       progress_.report(static_cast<double>(done++) / all);
       return payload(tile, column);
@@ -113,13 +158,15 @@ class Joiner {
   }
 
   std::uint64_t writeStreaming(ByteSink& sink) {
-    container::ContainerWriter writer(sink, Layout::Streaming, head_.grid, head_.layers);
+    container::FileHead head = head_;
+    head.tiles.clear();
+    container::ContainerWriter writer(sink, Layout::Streaming, std::move(head));
     for (std::size_t tile = 0; tile < tiles_.size(); ++tile) {
       progress_.report(static_cast<double>(tile) / static_cast<double>(tiles_.size()));
-      tiles_[tile].file->checkTileBlock(tiles_[tile].index);
+      files_[tiles_[tile].file]->checkTileBlock(tiles_[tile].index);
       std::vector<Bytes> chunks;
-      for (unsigned l = head_.tiles[tile].lacking; l < head_.layers; ++l) {
-        chunks.push_back(payload(tile, l));
+      for (std::size_t column = 0; column < layout_.columns(); ++column) {
+        if (head_.tiles[tile].hasChunk(layout_, column)) chunks.push_back(payload(tile, column));
       }
       writer.addTile(head_.tiles[tile], std::move(chunks));
     }
@@ -132,7 +179,10 @@ class Joiner {
   std::vector<std::unique_ptr<container::ContainerReader>> files_;
   std::uint64_t points_ = 0;
   bool hasGrid_ = false;
+  JoinedTables tables_;
+  JoinedMetadata metadata_;
   container::FileHead head_;
+  container::TileLayout layout_;
   std::vector<SourceTile> tiles_;
 };
 

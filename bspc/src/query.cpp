@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "arrays/tile_array_decoder.h"
 #include "bspc/error.h"
 #include "saturating.h"
 
@@ -48,7 +49,41 @@ std::uint64_t pointsOf(const container::ContainerReader& file,
   return points;
 }
 
+/// Indices of the arrays that the options ask for.
+std::vector<std::size_t> chosenArrays(const container::ContainerReader& file,
+                                      const DecodeOptions& options) {
+  const std::vector<ArrayDescription>& all = file.head().arrays;
+  std::vector<std::size_t> chosen;
+  if (options.arrays) {
+    for (const std::string& name : *options.arrays) {
+      const bool known = std::any_of(all.begin(), all.end(),
+                                     [&name](const ArrayDescription& a) { return a.name == name; });
+      if (known) continue;
+      std::string names;
+      for (const ArrayDescription& a : all) names += (names.empty() ? "" : ", ") + a.name;
+      throw Error(ErrorCode::InvalidArgument,
+                  "the file has no array \"" + name + "\"; " +
+                      (names.empty() ? "it has none" : "it has " + names));
+    }
+  }
+  for (std::size_t a = 0; a < all.size(); ++a) {
+    if (!options.arrays || std::find(options.arrays->begin(), options.arrays->end(), all[a].name) !=
+                               options.arrays->end()) {
+      chosen.push_back(a);
+    }
+  }
+  return chosen;
+}
+
 }  // namespace
+
+unsigned firstArrayLevel(const container::ContainerReader& file) {
+  unsigned level = 0;
+  for (const container::TileRecord& tile : file.tiles()) {
+    level = std::max(level, tile.firstArrayLayer(file.head().layers));
+  }
+  return level;
+}
 
 std::uint64_t pointsUpTo(const container::TileRecord& tile, unsigned level) {
   return level < tile.coarse.size() ? tile.coarse[level].representatives : tile.points;
@@ -85,6 +120,9 @@ Query planQuery(const container::ContainerReader& file, const DecodeOptions& opt
       query.firstCells.push_back(cells);
     }
   }
+  query.arrays = chosenArrays(file, options);
+  if (query.level < firstArrayLevel(file)) query.arrays.clear();
+  query.inputOrder = file.head().keepsOrder && query.level + 1 == file.head().layers;
   query.complete = query.level + 1 == file.head().layers && !file.tilesMissing() && !query.filter &&
                    !query.thin && range.count == file.tiles().size();
   return query;
@@ -93,7 +131,13 @@ Query planQuery(const container::ContainerReader& file, const DecodeOptions& opt
 std::uint64_t bytesRead(const container::ContainerReader& file, const Query& query) {
   std::uint64_t bytes = file.overheadBytes();
   for (const std::size_t i : query.tiles) {
-    bytes = saturatingAdd(bytes, file.bytesOfTile(i, query.level));
+    bytes = saturatingAdd(bytes, file.bytesOfRecord(i));
+    for (unsigned l = 0; l <= query.level; ++l) {
+      const std::size_t column = file.layout().column(l, container::kGeometryPart);
+      bytes = saturatingAdd(bytes, file.bytesOfChunk(i, column));
+    }
+    bytes =
+        saturatingAdd(bytes, bytesOfArrays(file, i, query.level, query.arrays, query.inputOrder));
   }
   return bytes;
 }

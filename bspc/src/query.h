@@ -16,9 +16,11 @@ struct Query {
   std::optional<BoxFilter> filter;
   std::vector<std::uint64_t> firstCells;  ///< of each of them, if cells are asked for
   unsigned level = 0;
-  std::uint64_t points = 0;  ///< in the tiles up to the level
-  bool complete = true;      ///< every point of the original is among them
-  bool thin = false;         ///< even the coarsest level has more than maxPoints
+  std::uint64_t points = 0;         ///< in the tiles up to the level
+  bool complete = true;             ///< every point of the original is among them
+  std::vector<std::size_t> arrays;  ///< those asked for that have values at the level
+  bool inputOrder = false;          ///< points are put into the order of the input
+  bool thin = false;                ///< even the coarsest level has more than maxPoints
 };
 
 /// Throws Error (InvalidArgument, Truncated) if the options ask for what is not there.
@@ -26,6 +28,9 @@ Query planQuery(const container::ContainerReader& file, const DecodeOptions& opt
 
 /// Bytes of the file that decoding the query reads.
 std::uint64_t bytesRead(const container::ContainerReader& file, const Query& query);
+
+/// The level from which on every tile has values of arrays.
+unsigned firstArrayLevel(const container::ContainerReader& file);
 
 /// Points, or representatives, that a tile has up to a level.
 std::uint64_t pointsUpTo(const container::TileRecord& tile, unsigned level);

@@ -21,47 +21,66 @@ void SetEncoder::encode(Span<const GridPoint> points, const std::vector<std::uin
 }
 
 void SetEncoder::encodePart(std::size_t offset, Span<const GridPoint> points) {
-  const tiling::TileCut cut = tiling::cutTiles(points, tilePoints_);
-  const auto produce = [&](std::size_t i) {
-    if (cut.order.empty()) return encoder_.encode(points, progress_.piece());
-    std::vector<GridPoint> tile;
-    tile.reserve(cut.firsts[i + 1] - cut.firsts[i]);
-    for (std::size_t j = cut.firsts[i]; j < cut.firsts[i + 1]; ++j) {
-      tile.push_back(points[cut.order[j]]);
-    }
-    return encoder_.encode(tile, progress_.piece());
-  };
-  const auto consume = [&](std::size_t i, FinishedTile tile) {
-    std::vector<std::uint64_t> sources;
-    if (options_.wantOrder || !tile.decoded.empty()) {
-      sources = sourcesOf(cut, i, offset, tile.order);
-    }
-    finish(std::move(tile), sources);
-  };
+  const tiling::TileCut cut = this->cut(points);
+  const auto produce = [&](std::size_t i) { return encodeTile(cut, i, offset, points); };
+  const auto consume = [&](std::size_t /*i*/, FinishedTile tile) { finish(std::move(tile)); };
   OrderedParallel<FinishedTile>(cut.tiles(), threadCount(options_.threads), produce)
       .run(consume, [this] { progress_.report(); });
 }
 
-void SetEncoder::finish(FinishedTile tile, const std::vector<std::uint64_t>& sources) {
-  for (const Bytes& chunk : tile.chunks) report_.geometryBytes += chunk.size();
+tiling::TileCut SetEncoder::cut(Span<const GridPoint> points) const {
+  if (!options_.keepOrder) return tiling::cutTiles(points, tilePoints_);
+  tiling::TileCut ranges;  // of the input, without an order: the points stay where they are
+  for (std::size_t first = 0; first < points.size(); first += tilePoints_) {
+    ranges.firsts.push_back(first);
+  }
+  ranges.firsts.push_back(points.size());
+  return ranges;
+}
+
+FinishedTile SetEncoder::encodeTile(const tiling::TileCut& cut, std::size_t tile,
+                                    std::size_t offset, Span<const GridPoint> points) const {
+  const std::vector<std::uint64_t> sources =
+      needsSources() ? sourcesOf(cut, tile, offset) : std::vector<std::uint64_t>();
+  const std::size_t first = cut.firsts[tile];
+  const std::size_t count = cut.firsts[tile + 1] - first;
+  if (cut.order.empty()) {
+    return encoder_.encode(points.subspan(first, count), sources, progress_.piece());
+  }
+  std::vector<GridPoint> own;
+  own.reserve(count);
+  for (std::size_t j = first; j < first + count; ++j) own.push_back(points[cut.order[j]]);
+  return encoder_.encode(own, sources, progress_.piece());
+}
+
+void SetEncoder::finish(FinishedTile tile) {
+  report_.geometryBytes += tile.geometryBytes;
+  report_.orderBytes += tile.orderBytes;
+  for (std::size_t a = 0; a < tile.arrayBytes.size(); ++a) {
+    ArrayReport& array = report_.arrays[a];
+    array.bytes += tile.arrayBytes[a];
+    array.greatestError = std::max(array.greatestError, tile.arrayErrors[a]);
+  }
   ++report_.tiles;
   if (!tile.decoded.empty() && original_ != nullptr) {
-    addLossyError(*original_, sources, tile.decoded, tile.record.lower, report_);
+    addLossyError(*original_, tile.sources, tile.decoded, tile.record.lower, report_);
   }
   if (options_.wantOrder) {
-    report_.order.insert(report_.order.end(), sources.begin(), sources.end());
+    report_.order.insert(report_.order.end(), tile.sources.begin(), tile.sources.end());
   }
   writer_.addTile(std::move(tile.record), std::move(tile.chunks));
 }
 
+bool SetEncoder::needsSources() const {
+  return options_.wantOrder || arrays_.hasWork() || options_.stopPoints > 0 || options_.stopLevel;
+}
+
 std::vector<std::uint64_t> SetEncoder::sourcesOf(const tiling::TileCut& cut, std::size_t tile,
-                                                 std::size_t offset,
-                                                 const std::vector<std::uint32_t>& order) const {
+                                                 std::size_t offset) const {
   std::vector<std::uint64_t> sources;
-  sources.reserve(order.size());
-  for (const std::uint32_t j : order) {
-    const std::size_t inPart = cut.firsts[tile] + j;
-    const std::size_t index = offset + (cut.order.empty() ? inPart : cut.order[inPart]);
+  sources.reserve(cut.firsts[tile + 1] - cut.firsts[tile]);
+  for (std::size_t j = cut.firsts[tile]; j < cut.firsts[tile + 1]; ++j) {
+    const std::size_t index = offset + (cut.order.empty() ? j : cut.order[j]);
     sources.push_back(sourceIndex_->empty() ? index : (*sourceIndex_)[index]);
   }
   return sources;

@@ -15,10 +15,12 @@ namespace bspc {
 /// Cuts grid points into tiles, codes them on several threads and hands them to a container.
 class SetEncoder {
  public:
-  /// All must outlive this; `report` gets tiles, geometryBytes and, if wished, the order.
-  SetEncoder(const CodingPlan& plan, const EncodeOptions& options, SharedProgress& progress,
-             container::ContainerWriter& writer, EncodeReport& report)
-      : encoder_(*plan.method, plan.layers, plan.wishes),
+  /// All must outlive this; `report` gets tiles, bytes and, if wished, the order. `arrays` has a
+  /// tuple for each point of the caller's input.
+  SetEncoder(const CodingPlan& plan, const EncodeOptions& options, ArraySource arrays,
+             SharedProgress& progress, container::ContainerWriter& writer, EncodeReport& report)
+      : arrays_(arrays, plan.arrayEffort, options.keepOrder),
+        encoder_(*plan.method, plan.layers, plan.wishes, arrays_),
         tilePoints_(static_cast<std::size_t>(plan.tilePoints)),
         options_(options),
         progress_(progress),
@@ -33,12 +35,16 @@ class SetEncoder {
 
  private:
   void encodePart(std::size_t offset, Span<const GridPoint> points);
-  /// Takes a coded tile whose points' input indices, in decoded order, sourcesOf() gives.
-  void finish(FinishedTile tile, const std::vector<std::uint64_t>& sources);
+  tiling::TileCut cut(Span<const GridPoint> points) const;
+  FinishedTile encodeTile(const tiling::TileCut& cut, std::size_t tile, std::size_t offset,
+                          Span<const GridPoint> points) const;
+  void finish(FinishedTile tile);
+  bool needsSources() const;
+  /// Input indices of the points of a tile.
   std::vector<std::uint64_t> sourcesOf(const tiling::TileCut& cut, std::size_t tile,
-                                       std::size_t offset,
-                                       const std::vector<std::uint32_t>& order) const;
+                                       std::size_t offset) const;
 
+  TileArrayEncoder arrays_;
   TileEncoder encoder_;
   std::size_t tilePoints_;
   const EncodeOptions& options_;

@@ -21,17 +21,29 @@ geometry::DecodedTile middleOnly(const container::TileRecord& record,
 
 }  // namespace
 
-geometry::DecodedTile TileDecoder::decode(std::size_t tile, unsigned level,
-                                          const DecodeOptions& options, std::uint64_t memory,
-                                          const geometry::PointProgress& progress) {
+TileContent TileDecoder::decode(std::size_t tile, const Query& query, const DecodeOptions& options,
+                                std::uint64_t memory, const geometry::PointProgress& progress) {
   const container::TileRecord& record = file_.tiles()[tile];
-  if (level < record.lacking) return middleOnly(record, options);
-  geometry::DecodedTile decoded = decodePayloads(tile, level, options, memory, progress);
+  const unsigned level = query.level;
+  if (level < record.lacking) return {middleOnly(record, options), {}};
+  TileContent content;
+  geometry::DecodedTile& decoded = content.points;
+  decoded = decodePayloads(tile, level, options, memory, progress);
   check(tile, level, decoded);
   if (options.cellLevel && *options.cellLevel < record.lacking) {
     decoded.cellIds.assign(decoded.points.size(), 0);
   }
-  return decoded;
+  if (query.arrays.empty() && !query.inputOrder) return content;
+  const std::uint64_t used = decoded.points.capacity() * sizeof(GridPoint) +
+                             (decoded.counts.size() + decoded.cellIds.size()) * 8 +
+                             decoded.layerOrder.size() * sizeof(std::uint32_t);
+  const auto readChunk = [&](std::size_t column) {
+    const std::lock_guard<std::mutex> lock(reading_);
+    return file_.chunk(tile, column);
+  };
+  TileArrayDecoder arrays(file_.layout(), record, decoded, level, readChunk);
+  content.values = arrays.decode(query.arrays, query.inputOrder, memory > used ? memory - used : 0);
+  return content;
 }
 
 geometry::DecodedTile TileDecoder::decodePayloads(std::size_t tile, unsigned level,
@@ -73,7 +85,7 @@ std::vector<Bytes> TileDecoder::readPayloads(std::size_t tile, unsigned level) {
   file_.checkTileBlock(tile);
   std::vector<Bytes> payloads;
   for (unsigned l = file_.tiles()[tile].lacking; l <= level; ++l) {
-    payloads.push_back(file_.chunk(tile, l));
+    payloads.push_back(file_.chunk(tile, file_.layout().column(l, container::kGeometryPart)));
   }
   return payloads;
 }

@@ -3,11 +3,19 @@
 #include <cstdint>
 #include <mutex>
 
+#include "arrays/tile_array_decoder.h"
 #include "bspc/decoder.h"
 #include "container/container_reader.h"
 #include "geometry/geometry_method.h"
+#include "query.h"
 
 namespace bspc {
+
+/// A tile with what was asked of it.
+struct TileContent {
+  geometry::DecodedTile points;
+  DecodedTileArrays values;
+};
 
 /// Reads and decodes tiles of a file and checks what comes out; on any number of threads at a time.
 class TileDecoder {
@@ -15,10 +23,10 @@ class TileDecoder {
   TileDecoder(const container::ContainerReader& file, const DecodeLimits& limits)
       : file_(file), limits_(limits) {}
 
-  /// The tile up to `level`, relative to its lower corner, within `memory` bytes.
+  /// The tile up to the level of the query, relative to its lower corner, within `memory` bytes.
   /// Throws Error (Corrupt, Unsupported, LimitExceeded, Io).
-  geometry::DecodedTile decode(std::size_t tile, unsigned level, const DecodeOptions& options,
-                               std::uint64_t memory, const geometry::PointProgress& progress);
+  TileContent decode(std::size_t tile, const Query& query, const DecodeOptions& options,
+                     std::uint64_t memory, const geometry::PointProgress& progress);
 
  private:
   geometry::DecodedTile decodePayloads(std::size_t tile, unsigned level,

@@ -23,8 +23,9 @@ geometry::TileInput describe(Span<const GridPoint> points) {
   return tile;
 }
 
-std::uint64_t checksumInOrder(const geometry::TileInput& tile,
-                              const std::vector<std::uint32_t>& order) {
+/// Where the points of a tile are decoded, from its lower corner.
+std::vector<GridPoint> decodedPoints(const geometry::TileInput& tile,
+                                     const std::vector<std::uint32_t>& order) {
   std::vector<GridPoint> decoded;
   decoded.reserve(order.size());
   for (const std::uint32_t i : order) {
@@ -32,12 +33,19 @@ std::uint64_t checksumInOrder(const geometry::TileInput& tile,
     for (std::size_t k = 0; k < 3; ++k) p[k] -= tile.lower[k];
     decoded.push_back(p);
   }
-  return container::contentChecksum(decoded);
+  return decoded;
+}
+
+std::uint64_t totalSize(const std::vector<Bytes>& payloads) {
+  std::uint64_t bytes = 0;
+  for (const Bytes& payload : payloads) bytes += payload.size();
+  return bytes;
 }
 
 }  // namespace
 
 FinishedTile TileEncoder::encode(Span<const GridPoint> points,
+                                 const std::vector<std::uint64_t>& sources,
                                  const geometry::PointProgress& progress) const {
   geometry::TileInput tile = describe(points);
   tile.layers = layers_;
@@ -49,14 +57,45 @@ FinishedTile TileEncoder::encode(Span<const GridPoint> points,
   finished.record.points = points.size();
   finished.record.lower = tile.lower;
   finished.record.extent = tile.extent;
-  finished.record.coarse = std::move(coded.coarse);
-  finished.record.contentChecksum = coded.decoded.empty()
-                                        ? checksumInOrder(tile, coded.order)
-                                        : container::contentChecksum(coded.decoded);
-  finished.chunks = std::move(coded.layers);
-  finished.order = std::move(coded.order);
+  finished.record.coarse = coded.coarse;
+  finished.geometryBytes = totalSize(coded.layers);
+  if (!sources.empty()) {
+    finished.sources.reserve(sources.size());
+    for (const std::uint32_t i : coded.order) finished.sources.push_back(sources[i]);
+  }
   finished.decoded = std::move(coded.decoded);
+  const std::vector<GridPoint> own =
+      finished.decoded.empty() ? decodedPoints(tile, coded.order) : std::vector<GridPoint>();
+  const std::vector<GridPoint>& decoded = finished.decoded.empty() ? own : finished.decoded;
+  finished.record.contentChecksum = container::contentChecksum(decoded);
+  if (arrays_.hasWork()) {
+    addArrays(arrays_.encode({coded, decoded, finished.sources}), coded, finished);
+  } else {
+    finished.chunks = std::move(coded.layers);
+  }
   return finished;
+}
+
+void TileEncoder::addArrays(CodedTileArrays arrays, geometry::EncodedTile& coded,
+                            FinishedTile& finished) const {
+  finished.record.order = arrays.order;
+  finished.record.layeredArrays = arrays.layered;
+  finished.record.arrays = std::move(arrays.arrays);
+  finished.orderBytes = arrays.orderPayload.size();
+  finished.arrayErrors = std::move(arrays.greatestErrors);
+  for (const std::vector<Bytes>& payloads : arrays.payloads) {
+    finished.arrayBytes.push_back(totalSize(payloads));
+  }
+  const std::size_t first = finished.record.firstArrayLayer(layers_);
+  for (std::size_t l = 0; l < layers_; ++l) {
+    finished.chunks.push_back(std::move(coded.layers[l]));
+    if (l + 1 == layers_ && arrays.order == container::TileOrder::Stored) {
+      finished.chunks.push_back(std::move(arrays.orderPayload));
+    }
+    for (std::vector<Bytes>& payloads : arrays.payloads) {
+      if (l >= first) finished.chunks.push_back(std::move(payloads[l - first]));
+    }
+  }
 }
 
 }  // namespace bspc

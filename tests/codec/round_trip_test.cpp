@@ -100,22 +100,6 @@ TEST(RoundTrip, OrderSkipsDroppedPoints) {
   }
 }
 
-TEST(RoundTrip, NamedArraysAreRefusedNotDropped) {
-  const std::vector<float> xyz(30, 1.0F);
-  PointSetView points(xyz.data(), 10);
-  ArrayView array;
-  array.name = "Intensity";
-  points.addArray(array);
-  MemorySink sink;
-  try {
-    encode(points, sink);
-    FAIL() << "the array was dropped";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::Unsupported);
-    EXPECT_NE(std::string(error.what()).find("Intensity"), std::string::npos);
-  }
-}
-
 TEST(RoundTrip, StrideSkipsWhatIsNotAPosition) {
   struct Vertex {
     std::uint8_t colour[4];

@@ -15,10 +15,11 @@ constexpr std::uint64_t kTilePoints = 0xFFFFFFFF;
 
 /// A file whose tiles claim 2^32 − 1 points each; their payloads are not to be decoded.
 Bytes hugeFile(Layout layout, std::size_t tiles) {
-  Grid grid;
-  grid.scalarType = ScalarType::UInt32;
+  FileHead head;
+  head.grid.scalarType = ScalarType::UInt32;
+  head.layers = 2;
   MemorySink sink;
-  ContainerWriter writer(sink, layout, grid, 2);
+  ContainerWriter writer(sink, layout, head);
   for (std::size_t t = 0; t < tiles; ++t) {
     TileRecord record;
     record.method = static_cast<unsigned>(Method::Kd);
@@ -60,9 +61,8 @@ TEST(LargeCounts, AreSummedUpInJoinedFiles) {
 }
 
 TEST(LargeCounts, SumsThatAFileOnlyClaimsStopAtTheTop) {
-  Grid grid;
   MemorySink sink;
-  ContainerWriter writer(sink, Layout::Progressive, grid, 1);
+  ContainerWriter writer(sink, Layout::Progressive, FileHead());
   for (int t = 0; t < 3; ++t) {
     TileRecord record;
     record.method = static_cast<unsigned>(Method::Kd);

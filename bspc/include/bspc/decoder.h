@@ -36,8 +36,8 @@ struct TileInfo {
 /// An array of a file.
 struct ArrayInfo : ArrayDescription {
   std::uint64_t bytes = 0;  ///< payload over all tiles
-  /// The finest layer that is needed to have values: 0 if every layer has some, else the last one
-  /// (layers of methods whose representatives are no points of the set carry no arrays).
+  /// The coarsest level from which on there are values: 0 if every layer has some, the last one if
+  /// layers carry no arrays (those of methods whose representatives are no points of the set).
   unsigned firstLevel = 0;
 };
 
@@ -56,7 +56,8 @@ struct FileInfo {
   std::vector<TileInfo> tiles;
   std::vector<ArrayInfo> arrays;  ///< beside the positions, one tuple a point
   Metadata metadata;
-  bool keepsOrder = false;  ///< points come back in the order of the input
+  bool keepsOrder = false;       ///< points come back in the order of the input
+  std::uint64_t orderBytes = 0;  ///< payload of that order, or of one that helps to code arrays
   /// Layers that are whole in this file; less than layers.size() only in a truncated file that
   /// was opened with allowPartial.
   unsigned wholeLayers = 0;

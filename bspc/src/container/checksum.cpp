@@ -7,6 +7,9 @@
 #include <array>
 #include <cstring>
 #include <memory>
+#include <string>
+
+#include "bspc/arrays.h"
 
 namespace bspc::container {
 
@@ -55,6 +58,30 @@ std::uint64_t contentChecksum(Span<const GridPoint> points) {
       }
     }
     XXH3_64bits_update(state.get(), piece.data(), 12 * count);
+  }
+  return cut(XXH3_64bits_digest(state.get()), width);
+}
+
+unsigned valuesChecksumWidth(const attributes::ArrayShape& shape, std::uint64_t points) {
+  if (shape.type == ScalarType::String) return 8;
+  const std::uint64_t tuple = shape.components * std::uint64_t{arrayValueSize(shape.type)};
+  return points < 65536 ? checksumWidth(tuple * points) : 8;
+}
+
+std::uint64_t valuesChecksum(const attributes::ArrayShape& shape,
+                             const attributes::ArrayValues& values, std::uint64_t points) {
+  const unsigned width = valuesChecksumWidth(shape, points);
+  if (shape.type != ScalarType::String) return checksum(values.numbers, width);
+  const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(),
+                                                                       &XXH3_freeState);
+  XXH3_64bits_reset(state.get());
+  for (const std::string& text : values.strings) {
+    std::array<std::uint8_t, 8> length{};
+    for (unsigned i = 0; i < 8; ++i) {
+      length[i] = static_cast<std::uint8_t>(std::uint64_t{text.size()} >> (8 * i));
+    }
+    XXH3_64bits_update(state.get(), length.data(), length.size());
+    XXH3_64bits_update(state.get(), text.data(), text.size());
   }
   return cut(XXH3_64bits_digest(state.get()), width);
 }

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "attributes/array_coder.h"
 #include "bspc/grid.h"
 #include "bspc/span.h"
 #include "container/byte_writer.h"
@@ -19,5 +20,12 @@ std::uint64_t checksum(ByteView bytes, unsigned width);
 /// corner, as little-endian 32-bit x, y, z. `width` is that of 12 bytes a point.
 std::uint64_t contentChecksum(Span<const GridPoint> points);
 unsigned contentChecksumWidth(std::uint64_t points);
+
+/// The checksum of the values of an array in decoded order: numbers as little-endian bytes, a byte
+/// for each Bit, strings as their length in eight little-endian bytes and their bytes. `width` is
+/// that of a fixed number of bytes a point, 8 for strings.
+std::uint64_t valuesChecksum(const attributes::ArrayShape& shape,
+                             const attributes::ArrayValues& values, std::uint64_t points);
+unsigned valuesChecksumWidth(const attributes::ArrayShape& shape, std::uint64_t points);
 
 }  // namespace bspc::container

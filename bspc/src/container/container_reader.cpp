@@ -34,6 +34,7 @@ ContainerReader::ContainerReader(std::shared_ptr<ByteSource> source, const OpenO
   }
   ByteReader in(block.content, "the head", block.contentOffset);
   head_ = readHead(in, options.limits);
+  layout_ = head_.layout();
   overheadBytes_ = block.end;
   if (head_.streaming) {
     openStreaming(block.end, options);
@@ -71,7 +72,7 @@ void ContainerReader::readPreamble() {
 }
 
 void ContainerReader::openProgressive(std::uint64_t chunksOffset, const OpenOptions& options) {
-  const std::size_t columns = head_.columns();
+  const std::size_t columns = layout_.columns();
   const std::uint64_t size = source_->size();
   chunkOffsets_.resize(head_.tiles.size() * columns);
   std::uint64_t offset = chunksOffset;
@@ -80,7 +81,7 @@ void ContainerReader::openProgressive(std::uint64_t chunksOffset, const OpenOpti
       chunkOffsets_[tile * columns + column] = offset;
       offset = saturatingAdd(offset, saturatingChunkSize(head_.tiles[tile].chunkSizes[column]));
     }
-    if (offset <= size && column < head_.layers) ++wholeLayers_;
+    if (offset <= size && layout_.partOf(column) + 1 == layout_.parts()) ++wholeLayers_;
   }
   if (offset <= size) {
     if (head_.trailingBlocks) {
@@ -144,7 +145,7 @@ bool ContainerReader::readIndex(std::uint64_t firstTile, const DecodeLimits& lim
   }
   ByteReader in(index.content, "the index", index.contentOffset);
   std::vector<std::size_t> recordSizes;
-  head_.tiles = readTileTable(in, head_, limits, &recordSizes);
+  head_.tiles = readTileTable(in, layout_, limits, &recordSizes);
   in.expectEnd();
   std::uint64_t offset = firstTile;
   for (std::size_t tile = 0; tile < head_.tiles.size(); ++tile) {
@@ -173,7 +174,7 @@ void ContainerReader::recoverTiles(std::uint64_t firstTile, const DecodeLimits& 
       const Block block = readBlock(*source_, offset, 0, "a tile");
       if (block.type != static_cast<unsigned>(BlockType::Tile)) return;
       ByteReader in(block.content, "a tile", block.contentOffset);
-      tile = readTileRecord(in, head_.layers, head_.columns());
+      tile = readTileRecord(in, layout_);
       in.expectEnd();
       next = block.end;
     } catch (const Error&) {
@@ -217,24 +218,27 @@ void ContainerReader::readTrailingBlocks(std::uint64_t offset, std::uint64_t end
 }
 
 std::string ContainerReader::chunkName(std::size_t tile, std::size_t column) const {
-  return "layer " + std::to_string(column) + " of tile " + std::to_string(tile);
+  const std::size_t part = layout_.partOf(column);
+  const std::string of =
+      "layer " + std::to_string(layout_.layerOf(column)) + " of tile " + std::to_string(tile);
+  if (part == kGeometryPart) return of;
+  if (part == kOrderPart) return "the order of the points of tile " + std::to_string(tile);
+  return "array " + std::to_string(part - kFirstArrayPart) + " in " + of;
 }
 
-std::uint64_t ContainerReader::bytesOfTile(std::size_t tile, unsigned level) const {
-  std::uint64_t bytes = 0;
-  if (head_.streaming) {
-    ByteWriter record;
-    writeTileRecord(record, head_.tiles[tile]);
-    bytes = blockSize(record.data().size());
-  }
-  for (unsigned l = 0; l <= level; ++l) {
-    bytes = saturatingAdd(bytes, saturatingChunkSize(head_.tiles[tile].chunkSizes[l]));
-  }
-  return bytes;
+std::uint64_t ContainerReader::bytesOfRecord(std::size_t tile) const {
+  if (!head_.streaming) return 0;
+  ByteWriter record;
+  writeTileRecord(record, layout_, head_.tiles[tile]);
+  return blockSize(record.data().size());
+}
+
+std::uint64_t ContainerReader::bytesOfChunk(std::size_t tile, std::size_t column) const {
+  return saturatingChunkSize(head_.tiles[tile].chunkSizes[column]);
 }
 
 Bytes ContainerReader::chunk(std::size_t tile, std::size_t column) const {
-  return readChunk(*source_, chunkOffsets_[tile * head_.columns() + column],
+  return readChunk(*source_, chunkOffsets_[tile * layout_.columns() + column],
                    head_.tiles[tile].chunkSizes[column], chunkName(tile, column));
 }
 
@@ -243,7 +247,7 @@ void ContainerReader::checkTileBlock(std::size_t tile) const {
   const Block block =
       readBlock(*source_, tileBlocks_[tile], 0, "the record of tile " + std::to_string(tile));
   ByteWriter expected;
-  writeTileRecord(expected, head_.tiles[tile]);
+  writeTileRecord(expected, layout_, head_.tiles[tile]);
   if (block.type != static_cast<unsigned>(BlockType::Tile) || block.content != expected.data()) {
     throw Error(ErrorCode::Corrupt, "the record of tile " + std::to_string(tile) + " at byte " +
                                         std::to_string(tileBlocks_[tile]) +

@@ -20,17 +20,22 @@ class ContainerReader {
   const std::vector<TileRecord>& tiles() const { return head_.tiles; }
   unsigned versionMinor() const { return versionMinor_; }
   std::uint64_t fileBytes() const { return source_->size(); }
-  /// Layers whose chunks are all inside the file; at least 1 unless there are no tiles.
+  /// Layers whose chunks, those of the arrays among them, are all inside the file; at least 1
+  /// unless there are no tiles.
   unsigned wholeLayers() const { return wholeLayers_; }
   /// Tiles were lost at the end (streaming layout, cut short).
   bool tilesMissing() const { return tilesMissing_; }
 
   /// Bytes that were read when the file was opened: its head and index.
   std::uint64_t overheadBytes() const { return overheadBytes_; }
-  /// Bytes of a tile up to a level, checksums among them.
-  std::uint64_t bytesOfTile(std::size_t tile, unsigned level) const;
+  const TileLayout& layout() const { return layout_; }
 
-  /// The payload of a chunk, checked.
+  /// Bytes that reading a tile takes beside its chunks: its own record, in the streaming layout.
+  std::uint64_t bytesOfRecord(std::size_t tile) const;
+  /// Bytes of a chunk with its checksum; 0 if the tile has none in that column.
+  std::uint64_t bytesOfChunk(std::size_t tile, std::size_t column) const;
+
+  /// The payload of a chunk that the tile has, checked.
   Bytes chunk(std::size_t tile, std::size_t column) const;
   /// Streaming layout: checks that the tile's own record is that of the index.
   void checkTileBlock(std::size_t tile) const;
@@ -47,11 +52,12 @@ class ContainerReader {
 
   std::shared_ptr<ByteSource> source_;
   FileHead head_;
+  TileLayout layout_;
   unsigned versionMinor_ = 0;
   unsigned wholeLayers_ = 0;
   std::uint64_t overheadBytes_ = 0;
   bool tilesMissing_ = false;
-  std::vector<std::uint64_t> chunkOffsets_;  ///< tile-major, head_.columns() a tile
+  std::vector<std::uint64_t> chunkOffsets_;  ///< tile-major, layout_.columns() a tile
   std::vector<std::uint64_t> tileBlocks_;    ///< streaming layout: offsets of the tiles' blocks
 };
 

@@ -1,5 +1,7 @@
 #include "container/container_writer.h"
 
+#include <utility>
+
 #include "container/block.h"
 
 namespace bspc::container {
@@ -36,19 +38,19 @@ Bytes fileStart(const FileHead& head) {
 std::uint64_t writeProgressive(ByteSink& sink, const FileHead& head, const ChunkSource& chunks) {
   CountedSink out(sink);
   out.put(fileStart(head));
-  for (std::size_t column = 0; column < head.columns(); ++column) {
+  const std::size_t columns = head.layout().columns();
+  for (std::size_t column = 0; column < columns; ++column) {
     for (std::size_t tile = 0; tile < head.tiles.size(); ++tile) {
-      if (column >= head.tiles[tile].lacking) out.put(makeChunk(chunks(tile, column)));
+      if (head.tiles[tile].chunkSizes[column] == kNoChunk) continue;
+      out.put(makeChunk(chunks(tile, column)));
     }
   }
   return out.written();
 }
 
-ContainerWriter::ContainerWriter(ByteSink& sink, Layout layout, const Grid& grid, unsigned layers)
-    : sink_(sink) {
-  head_.layers = layers;
+ContainerWriter::ContainerWriter(ByteSink& sink, Layout layout, FileHead head)
+    : sink_(sink), head_(std::move(head)), layout_(head_.layout()) {
   head_.streaming = layout == Layout::Streaming;
-  head_.grid = grid;
   if (head_.streaming) put(fileStart(head_));
 }
 
@@ -58,11 +60,14 @@ void ContainerWriter::put(ByteView bytes) {
 }
 
 void ContainerWriter::addTile(TileRecord record, std::vector<Bytes> chunks) {
-  record.chunkSizes.assign(record.lacking, kNoChunk);
-  for (const Bytes& chunk : chunks) record.chunkSizes.push_back(chunk.size());
+  record.chunkSizes.assign(layout_.columns(), kNoChunk);
+  std::size_t next = 0;
+  for (std::size_t column = 0; column < layout_.columns(); ++column) {
+    if (record.hasChunk(layout_, column)) record.chunkSizes[column] = chunks[next++].size();
+  }
   if (head_.streaming) {
     ByteWriter content;
-    writeTileRecord(content, record);
+    writeTileRecord(content, layout_, record);
     put(makeBlock(BlockType::Tile, content.data()));
     for (Bytes& chunk : chunks) put(makeChunk(std::move(chunk)));
   } else {
@@ -75,7 +80,7 @@ void ContainerWriter::finish() {
   if (head_.streaming) {
     const std::uint64_t indexOffset = written_;
     ByteWriter index;
-    writeTileTable(index, tiles_);
+    writeTileTable(index, layout_, tiles_);
     put(makeBlock(BlockType::Index, index.data()));
     ByteWriter end;
     end.unsignedLittle(indexOffset, kEndContent);
@@ -83,8 +88,9 @@ void ContainerWriter::finish() {
     return;
   }
   head_.tiles = std::move(tiles_);
-  written_ = writeProgressive(sink_, head_, [this](std::size_t tile, std::size_t column) {
-    return std::move(chunks_[tile][column - head_.tiles[tile].lacking]);
+  std::vector<std::size_t> next(head_.tiles.size());
+  written_ = writeProgressive(sink_, head_, [&](std::size_t tile, std::size_t /*column*/) {
+    return std::move(chunks_[tile][next[tile]++]);
   });
 }
 

@@ -17,14 +17,15 @@ using ChunkSource = std::function<Bytes(std::size_t tile, std::size_t column)>;
 /// each chunk that there is, column by column. Returns the bytes written.
 std::uint64_t writeProgressive(ByteSink& sink, const FileHead& head, const ChunkSource& chunks);
 
-/// Writes a file tile by tile, in either layout. Tiles come with their chunks' payloads, one a
-/// column of the chunk table but those of layers that the record lacks.
+/// Writes a file tile by tile, in either layout.
 class ContainerWriter {
  public:
-  ContainerWriter(ByteSink& sink, Layout layout, const Grid& grid, unsigned layers);
+  /// The head without tiles and sizes; its layout flag is set to `layout`.
+  ContainerWriter(ByteSink& sink, Layout layout, FileHead head);
 
-  /// Streaming layout: written at once. Progressive layout: kept until finish(), since the layers
-  /// of all tiles stand together.
+  /// Takes a tile with the payloads of the chunks that its record says it has, in the order of
+  /// their columns. Streaming layout: written at once. Progressive layout: kept until finish(),
+  /// since the layers of all tiles stand together.
   void addTile(TileRecord record, std::vector<Bytes> chunks);
   /// Writes what is left; nothing may follow.
   void finish();
@@ -36,6 +37,7 @@ class ContainerWriter {
 
   ByteSink& sink_;
   FileHead head_;
+  TileLayout layout_;
   std::vector<TileRecord> tiles_;
   std::vector<std::vector<Bytes>> chunks_;  ///< progressive layout: of all tiles
   std::uint64_t written_ = 0;

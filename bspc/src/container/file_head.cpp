@@ -4,7 +4,9 @@
 
 #include "bspc/encoder.h"
 #include "bspc/error.h"
+#include "container/array_table.h"
 #include "container/grid_record.h"
+#include "container/metadata_record.h"
 
 namespace bspc::container {
 
@@ -17,29 +19,87 @@ constexpr unsigned kTrailingBlocks = 1U << 7;
 constexpr unsigned kOptionalRecord = 128;
 static_assert(kMaxLayers == kLayersMask + 1);
 
-/// This version knows no records; optional ones are passed over.
-void readRecords(ByteReader& in) {
-  const std::uint64_t count = in.varint();
-  if (count == 0) in.fail("an empty list of records");
-  for (std::uint64_t i = 0; i < count; ++i) {
-    const unsigned tag = in.u8();
-    if (tag < kOptionalRecord) {
+bool hasRecords(const FileHead& head) {
+  return head.keepsOrder || !head.arrays.empty() || !head.metadata.empty();
+}
+
+/// Tags of records (docs/format.md, "Head").
+enum Record : unsigned { kArrays = 1, kKeptOrder = 2, kMetadata = 128 };
+
+void writeRecord(ByteWriter& out, unsigned tag, ByteView content) {
+  out.u8(tag);
+  out.varint(content.size());
+  out.bytes(content);
+}
+
+void writeRecords(ByteWriter& out, const FileHead& head) {
+  out.varint((head.arrays.empty() ? 0U : 1U) + (head.keepsOrder ? 1U : 0U) +
+             (head.metadata.empty() ? 0U : 1U));
+  if (!head.arrays.empty()) {
+    ByteWriter table;
+    writeArrayTable(table, head.arrays);
+    writeRecord(out, kArrays, table.data());
+  }
+  if (head.keepsOrder) writeRecord(out, kKeptOrder, {});
+  if (!head.metadata.empty()) {
+    ByteWriter metadata;
+    writeMetadata(metadata, head.metadata);
+    writeRecord(out, kMetadata, metadata.data());
+  }
+}
+
+void readRecord(unsigned tag, ByteView content, const DecodeLimits& limits, FileHead& head) {
+  ByteReader in(content, "a record of the head", ByteReader::kNoOffset);
+  switch (tag) {
+    case kArrays:
+      head.arrays = readArrayTable(in, limits);
+      break;
+    case kKeptOrder:
+      head.keepsOrder = true;
+      break;
+    case kMetadata:
+      head.metadata = readMetadata(in, limits);
+      break;
+    default:
+      if (tag >= kOptionalRecord) return;
       throw Error(ErrorCode::Unsupported,
                   "the head has a record of type " + std::to_string(tag) +
                       ", which this version does not know and may not pass over; use a newer one");
-    }
-    in.bytes(in.varint());
+  }
+  in.expectEnd();
+}
+
+void readRecords(ByteReader& in, const DecodeLimits& limits, FileHead& head) {
+  const std::uint64_t count = in.varint();
+  if (count == 0) in.fail("an empty list of records");
+  int before = -1;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const unsigned tag = in.u8();
+    if (static_cast<int>(tag) <= before) in.fail("records that are not in the order of their tags");
+    before = static_cast<int>(tag);
+    readRecord(tag, in.bytes(in.varint()), limits, head);
   }
 }
 
 }  // namespace
 
-void writeTileTable(ByteWriter& out, const std::vector<TileRecord>& tiles) {
-  out.varint(tiles.size());
-  for (const TileRecord& tile : tiles) writeTileRecord(out, tile);
+TileLayout FileHead::layout() const {
+  TileLayout layout;
+  layout.layers = layers;
+  layout.keepsOrder = keepsOrder;
+  for (const ArrayDescription& array : arrays) {
+    layout.arrays.push_back({array.type, array.components, array.semantic});
+  }
+  return layout;
 }
 
-std::vector<TileRecord> readTileTable(ByteReader& in, const FileHead& head,
+void writeTileTable(ByteWriter& out, const TileLayout& layout,
+                    const std::vector<TileRecord>& tiles) {
+  out.varint(tiles.size());
+  for (const TileRecord& tile : tiles) writeTileRecord(out, layout, tile);
+}
+
+std::vector<TileRecord> readTileTable(ByteReader& in, const TileLayout& layout,
                                       const DecodeLimits& limits,
                                       std::vector<std::size_t>* recordSizes) {
   const std::uint64_t count = in.varint();
@@ -51,7 +111,7 @@ std::vector<TileRecord> readTileTable(ByteReader& in, const FileHead& head,
   std::vector<TileRecord> tiles;
   for (std::uint64_t i = 0; i < count; ++i) {
     const std::size_t start = in.position();
-    tiles.push_back(readTileRecord(in, head.layers, head.columns()));
+    tiles.push_back(readTileRecord(in, layout));
     if (recordSizes != nullptr) recordSizes->push_back(in.position() - start);
   }
   return tiles;
@@ -60,9 +120,10 @@ std::vector<TileRecord> readTileTable(ByteReader& in, const FileHead& head,
 Bytes writeHead(const FileHead& head) {
   ByteWriter out;
   out.u8((head.layers - 1) | (head.streaming ? kStreaming : 0) |
-         (head.trailingBlocks ? kTrailingBlocks : 0));
+         (head.trailingBlocks ? kTrailingBlocks : 0) | (hasRecords(head) ? kHasRecords : 0));
   writeGrid(out, head.grid);
-  if (!head.streaming) writeTileTable(out, head.tiles);
+  if (hasRecords(head)) writeRecords(out, head);
+  if (!head.streaming) writeTileTable(out, head.layout(), head.tiles);
   return out.take();
 }
 
@@ -74,8 +135,8 @@ FileHead readHead(ByteReader& in, const DecodeLimits& limits) {
   head.trailingBlocks = (flags & kTrailingBlocks) != 0;
   if (head.streaming && head.trailingBlocks) in.fail("contradicting layout flags");
   head.grid = readGrid(in);
-  if ((flags & kHasRecords) != 0) readRecords(in);
-  if (!head.streaming) head.tiles = readTileTable(in, head, limits, nullptr);
+  if ((flags & kHasRecords) != 0) readRecords(in, limits, head);
+  if (!head.streaming) head.tiles = readTileTable(in, head.layout(), limits, nullptr);
   in.expectEnd();
   return head;
 }

@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "bspc/arrays.h"
 #include "bspc/grid.h"
 #include "bspc/limits.h"
 #include "container/byte_reader.h"
 #include "container/byte_writer.h"
+#include "container/tile_layout.h"
 #include "container/tile_record.h"
 
 namespace bspc::container {
@@ -26,19 +28,22 @@ struct FileHead {
   bool streaming = false;       ///< the tile table stands in the index block at the end
   bool trailingBlocks = false;  ///< progressive layout: blocks follow the chunks
   Grid grid;
+  std::vector<ArrayDescription> arrays;  ///< of the points, by name
+  bool keepsOrder = false;               ///< points come back in the order of the input
+  Metadata metadata;
   std::vector<TileRecord> tiles;  ///< progressive layout only
 
-  /// Chunks that every tile has: one a layer, then (with arrays) one an array.
-  std::size_t columns() const { return layers; }
+  TileLayout layout() const;
 };
 
 /// The content of the head block.
 Bytes writeHead(const FileHead& head);
 FileHead readHead(ByteReader& in, const DecodeLimits& limits);
 
-void writeTileTable(ByteWriter& out, const std::vector<TileRecord>& tiles);
+void writeTileTable(ByteWriter& out, const TileLayout& layout,
+                    const std::vector<TileRecord>& tiles);
 /// The table; `recordSizes` receives the bytes that each record takes.
-std::vector<TileRecord> readTileTable(ByteReader& in, const FileHead& head,
+std::vector<TileRecord> readTileTable(ByteReader& in, const TileLayout& layout,
                                       const DecodeLimits& limits,
                                       std::vector<std::size_t>* recordSizes);
 

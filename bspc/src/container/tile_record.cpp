@@ -14,8 +14,18 @@ constexpr unsigned kHasLower = 1U << 6;
 constexpr unsigned kLacksLayers = 1U << 7;
 constexpr unsigned kVersionBits = 4;
 
+// The flags of the fields about arrays.
+constexpr unsigned kOrderMask = 3;
+constexpr unsigned kLayeredArrays = 1U << 2;
+
 unsigned byteLength(std::uint32_t value) {
   return std::max(1U, (entropy::bitLength(value) + 7) / 8);
+}
+
+std::uint64_t readChunkSize(ByteReader& in) {
+  const std::uint64_t size = in.varint();
+  if (size == kNoChunk) in.fail("a chunk of 2^64 - 1 bytes");
+  return size;
 }
 
 }  // namespace
@@ -29,13 +39,73 @@ geometry::LayerSummary lackingLayer(const GridPoint& extent) {
   return {1, longest - longest / 2};
 }
 
+bool TileRecord::hasChunk(const TileLayout& layout, std::size_t column) const {
+  const unsigned layer = layout.layerOf(column);
+  switch (layout.partOf(column)) {
+    case kGeometryPart:
+      return layer >= lacking;
+    case kOrderPart:
+      return order == TileOrder::Stored && layer + 1 == layout.layers;
+    default:
+      return layer >= firstArrayLayer(layout.layers);
+  }
+}
+
 void TileRecord::addLacking(unsigned layers) {
   lacking += layers;
   coarse.insert(coarse.begin(), layers, lackingLayer(extent));
-  chunkSizes.insert(chunkSizes.begin(), layers, kNoChunk);
 }
 
-void writeTileRecord(ByteWriter& out, const TileRecord& tile) {
+namespace {
+
+/// The fields about arrays and the order, and the sizes of their chunks.
+void writeArrayFields(ByteWriter& out, const TileLayout& layout, const TileRecord& tile) {
+  const unsigned last = layout.layers - 1;
+  const bool stored = tile.order == TileOrder::Stored;
+  out.u8((tile.layeredArrays ? kLayeredArrays : 0) | static_cast<unsigned>(tile.order));
+  if (stored) out.varint(tile.chunkSizes[layout.column(last, kOrderPart)]);
+  for (std::size_t a = 0; a < layout.arrays.size(); ++a) {
+    out.unsignedLittle(tile.arrays[a].contentChecksum,
+                       valuesChecksumWidth(layout.arrays[a], tile.points));
+    for (unsigned l = tile.firstArrayLayer(layout.layers); l < layout.layers; ++l) {
+      const std::uint64_t size = tile.chunkSizes[layout.column(l, kFirstArrayPart + a)];
+      out.varint(stored && l == last ? 2 * size + (tile.arrays[a].needsOrder ? 1 : 0) : size);
+    }
+  }
+}
+
+void readArrayFields(ByteReader& in, const TileLayout& layout, TileRecord& tile) {
+  const unsigned last = layout.layers - 1;
+  const unsigned flags = in.u8();
+  const unsigned order = flags & kOrderMask;
+  if (flags > (kLayeredArrays | kOrderMask) || order > static_cast<unsigned>(TileOrder::Decoded)) {
+    in.fail("the arrays of a tile have unknown flags");
+  }
+  tile.layeredArrays = (flags & kLayeredArrays) != 0;
+  tile.order = static_cast<TileOrder>(order);
+  if (layout.keepsOrder && tile.order == TileOrder::Unknown) {
+    in.fail("a tile has no order in a file that keeps it");
+  }
+  const bool stored = tile.order == TileOrder::Stored;
+  if (stored) tile.chunkSizes[layout.column(last, kOrderPart)] = readChunkSize(in);
+  for (std::size_t a = 0; a < layout.arrays.size(); ++a) {
+    TileArray array;
+    array.contentChecksum = in.unsignedLittle(valuesChecksumWidth(layout.arrays[a], tile.points));
+    for (unsigned l = tile.firstArrayLayer(layout.layers); l < layout.layers; ++l) {
+      std::uint64_t size = readChunkSize(in);
+      if (stored && l == last) {
+        array.needsOrder = (size & 1) != 0;
+        size /= 2;
+      }
+      tile.chunkSizes[layout.column(l, kFirstArrayPart + a)] = size;
+    }
+    tile.arrays.push_back(array);
+  }
+}
+
+}  // namespace
+
+void writeTileRecord(ByteWriter& out, const TileLayout& layout, const TileRecord& tile) {
   unsigned flags = tile.lower == GridPoint{} ? 0 : kHasLower;
   for (unsigned k = 0; k < 3; ++k) flags |= (byteLength(tile.extent[k]) - 1) << (2 * k);
   if (tile.lacking > 0) flags |= kLacksLayers;
@@ -52,12 +122,13 @@ void writeTileRecord(ByteWriter& out, const TileRecord& tile) {
     out.varint(tile.coarse[l].spread);
   }
   out.unsignedLittle(tile.contentChecksum, contentChecksumWidth(tile.points));
-  for (const std::uint64_t size : tile.chunkSizes) {
-    if (size != kNoChunk) out.varint(size);
+  for (unsigned l = tile.lacking; l < layout.layers; ++l) {
+    out.varint(tile.chunkSizes[layout.column(l, kGeometryPart)]);
   }
+  if (layout.hasArrayFields()) writeArrayFields(out, layout, tile);
 }
 
-TileRecord readTileRecord(ByteReader& in, unsigned layers, std::size_t columns) {
+TileRecord readTileRecord(ByteReader& in, const TileLayout& layout) {
   TileRecord tile;
   const unsigned flags = in.u8();
   const std::uint32_t coder = in.varint32();
@@ -76,10 +147,10 @@ TileRecord readTileRecord(ByteReader& in, unsigned layers, std::size_t columns) 
   }
   if ((flags & kLacksLayers) != 0) {
     tile.lacking = in.varint32();
-    if (tile.lacking == 0 || tile.lacking >= layers) in.fail("a tile lacks no layer or all");
+    if (tile.lacking == 0 || tile.lacking >= layout.layers) in.fail("a tile lacks no layer or all");
     tile.coarse.assign(tile.lacking, lackingLayer(tile.extent));
   }
-  for (unsigned l = tile.lacking; l + 1 < layers; ++l) {
+  for (unsigned l = tile.lacking; l + 1 < layout.layers; ++l) {
     geometry::LayerSummary layer;
     layer.representatives = in.varint();
     layer.spread = in.varint32();
@@ -90,11 +161,11 @@ TileRecord readTileRecord(ByteReader& in, unsigned layers, std::size_t columns) 
     tile.coarse.push_back(layer);
   }
   tile.contentChecksum = in.unsignedLittle(contentChecksumWidth(tile.points));
-  for (std::size_t c = 0; c < columns; ++c) {
-    tile.chunkSizes.push_back(c < tile.lacking ? kNoChunk : in.varint());
-    if (c >= tile.lacking && tile.chunkSizes.back() == kNoChunk)
-      in.fail("a chunk of 2^64 - 1 bytes");
+  tile.chunkSizes.assign(layout.columns(), kNoChunk);
+  for (unsigned l = tile.lacking; l < layout.layers; ++l) {
+    tile.chunkSizes[layout.column(l, kGeometryPart)] = readChunkSize(in);
   }
+  if (layout.hasArrayFields()) readArrayFields(in, layout, tile);
   return tile;
 }
 

@@ -6,9 +6,23 @@
 #include "bspc/grid.h"
 #include "container/byte_reader.h"
 #include "container/byte_writer.h"
+#include "container/tile_layout.h"
 #include "geometry/geometry_method.h"
 
 namespace bspc::container {
+
+/// What is known of the order in which a tile's points came in. The values are those of the format.
+enum class TileOrder : std::uint8_t {
+  Unknown = 0,
+  Stored = 1,   ///< a chunk of the last layer has it
+  Decoded = 2,  ///< it is the order in which they are decoded
+};
+
+/// What the index says of an array in a tile.
+struct TileArray {
+  std::uint64_t contentChecksum = 0;  ///< of its values in decoded order
+  bool needsOrder = false;            ///< its last chunk is decoded with the help of the order
+};
 
 /// What the index says of a tile (docs/format.md, "Tile record").
 struct TileRecord {
@@ -21,10 +35,19 @@ struct TileRecord {
   unsigned lacking = 0;
   std::vector<geometry::LayerSummary> coarse;  ///< of all layers but the last, lacking ones too
   std::uint64_t contentChecksum = 0;
-  /// Payload bytes, a column of the chunk table each; kNoChunk for those of lacking layers.
+  TileOrder order = TileOrder::Unknown;
+  /// Every layer that the tile has holds values of the arrays: its representatives are points of
+  /// the tile. Otherwise the last one alone does.
+  bool layeredArrays = false;
+  std::vector<TileArray> arrays;  ///< one for each array of the layout
+  /// Payload bytes by column of the layout; kNoChunk where the tile has none.
   std::vector<std::uint64_t> chunkSizes;
 
-  /// Puts so many layers that the tile has not in front of its own.
+  /// Whether the tile has a chunk in a column.
+  bool hasChunk(const TileLayout& layout, std::size_t column) const;
+  /// The first layer in which arrays have values.
+  unsigned firstArrayLayer(unsigned layers) const { return layeredArrays ? lacking : layers - 1; }
+  /// Puts so many layers that the tile has not in front of its own; chunkSizes stay as they are.
   void addLacking(unsigned layers);
 };
 
@@ -36,8 +59,7 @@ constexpr std::uint64_t kNoChunk = 0xFFFFFFFFFFFFFFFF;
 GridPoint middleOfBox(const GridPoint& extent);
 geometry::LayerSummary lackingLayer(const GridPoint& extent);
 
-void writeTileRecord(ByteWriter& out, const TileRecord& tile);
-/// `layers` of geometry; `columns` chunks in all.
-TileRecord readTileRecord(ByteReader& in, unsigned layers, std::size_t columns);
+void writeTileRecord(ByteWriter& out, const TileLayout& layout, const TileRecord& tile);
+TileRecord readTileRecord(ByteReader& in, const TileLayout& layout);
 
 }  // namespace bspc::container

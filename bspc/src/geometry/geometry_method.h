@@ -45,6 +45,10 @@ struct EncodedTile {
   /// empty if every point stands where it was.
   std::vector<GridPoint> decoded;
   unsigned version = 0;  ///< of the method that the payloads need
+  /// Representatives are points of the tile, so that values of points can be coded in layers too.
+  bool nestsPoints = false;
+  /// If so: indices of decoded points layer after layer; empty if that is how they are decoded.
+  std::vector<std::uint32_t> layerOrder;
 };
 
 /// A tile to be decoded. Nothing in it can be trusted but that the payloads are the bytes that
@@ -66,6 +70,7 @@ struct DecodedTile {
   std::vector<GridPoint> points;  ///< grid steps from the tile's lower corner
   std::vector<std::uint64_t> counts;
   std::vector<std::uint64_t> cellIds;
+  std::vector<std::uint32_t> layerOrder;  ///< see EncodedTile, of the points that there are
 };
 
 /// One way to code the positions of a tile. Methods are stateless and may run on several tiles at

@@ -209,10 +209,13 @@ class LargeSetEncoder {
     report_.method = plan.method->id();
     report_.layout = Layout::Streaming;
     report_.layers = plan.layers;
-    container::ContainerWriter writer(sink_, Layout::Streaming, report_.grid, plan.layers);
+    container::FileHead head;
+    head.layers = plan.layers;
+    head.grid = report_.grid;
+    container::ContainerWriter writer(sink_, Layout::Streaming, std::move(head));
     ProgressScale coding(options_.encoding.progress, kCut, 1);
     SharedProgress progress(coding, report_.points);
-    SetEncoder encoder(plan, options_.encoding, progress, writer, report_);
+    SetEncoder encoder(plan, options_.encoding, {}, progress, writer, report_);
     const std::uint64_t most = partPoints();
     for (std::size_t part = 0; part < parts_->parts(); ++part) {
       for (std::uint64_t first = 0; first < parts_->size(part); first += most) {

@@ -53,6 +53,7 @@ std::vector<std::uint32_t> sequenceOf(const TileInput& tile) {
 EncodedTile encodeAlongHilbert(const TileInput& tile, const RankedPoints& ranked,
                                const PointProgress& progress) {
   EncodedTile result;
+  result.nestsPoints = true;
   result.order.reserve(tile.points.size());
   const std::vector<std::uint32_t> sequence = sequenceOf(tile);
   const LayerStrides strides(sequence.size(), tile.layers, ranked.header.ratioBits);
@@ -111,6 +112,8 @@ EncodedTile encodeInInputOrder(const TileInput& tile, RankedPoints& ranked) {
   EncodedTile result;
   result.order = identity(tile.points.size());
   const LayerStrides strides(tile.points.size(), tile.layers, ranked.header.ratioBits);
+  result.nestsPoints = true;
+  if (tile.layers > 1) result.layerOrder = strides.layerAfterLayer(tile.layers - 1);
   for (unsigned layer = 0; layer < tile.layers; ++layer) {
     container::ByteWriter payload;
     if (layer == 0) writeHeader(payload, ranked.header, tile.layers);
@@ -191,6 +194,10 @@ DecodedTile FastMethod::decode(const TileToDecode& tile, const PointProgress& pr
     }
   }
   collector.append(inOrder.data(), inOrder.size());
+  if (inputOrder && tile.layers > 1) {
+    budget.checkBytes(result.points.size() * (sizeof(GridPoint) + sizeof(std::uint32_t)));
+    result.layerOrder = strides.layerAfterLayer(static_cast<unsigned>(tile.payloads.size()) - 1);
+  }
   if (tile.wantCounts || tile.cellLevel) {
     constexpr std::uint64_t kSortBytes = 40;  // per point: places, keys and their copies
     budget.checkBytes(result.points.size() * kSortBytes);

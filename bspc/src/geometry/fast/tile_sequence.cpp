@@ -8,6 +8,19 @@
 
 namespace bspc::geometry::fast {
 
+std::vector<std::uint32_t> LayerStrides::layerAfterLayer(unsigned layer) const {
+  std::vector<std::uint32_t> order;
+  order.reserve(static_cast<std::size_t>(upTo(layer)));
+  const unsigned bits = strideBits(layer);
+  for (unsigned l = 0; l <= layer; ++l) {
+    for (std::uint64_t i = 0; i < upTo(l); ++i) {
+      const std::uint64_t place = i << strideBits(l);
+      if (isNew(place, l)) order.push_back(static_cast<std::uint32_t>(place >> bits));
+    }
+  }
+  return order;
+}
+
 std::vector<std::uint32_t> hilbertSequence(const std::vector<GridPoint>& points,
                                            const GridPoint& extent) {
   const unsigned bits = entropy::bitLength(std::max({extent[0], extent[1], extent[2]}));

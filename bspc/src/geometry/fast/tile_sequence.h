@@ -30,6 +30,9 @@ class LayerStrides {
   std::uint64_t inLayer(unsigned layer) const {
     return upTo(layer) - (layer > 0 ? upTo(layer - 1) : 0);
   }
+  /// Places among the points of layers 0 … `layer`, which stand in the order of the sequence, layer
+  /// after layer.
+  std::vector<std::uint32_t> layerAfterLayer(unsigned layer) const;
   /// Whether the point at a place of the sequence comes with that very layer.
   bool isNew(std::uint64_t place, unsigned layer) const {
     const auto onStride = [&](unsigned l) {

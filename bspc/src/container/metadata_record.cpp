@@ -1,0 +1,88 @@
+#include "container/metadata_record.h"
+
+#include <set>
+#include <string>
+
+#include "bspc/error.h"
+#include "container/array_table.h"
+#include "container/packed_bytes.h"
+
+namespace bspc::container {
+
+namespace {
+
+/// The part of the memory that a file may take before any point is decoded.
+constexpr std::uint64_t kShareOfMemory = 16;
+
+void writeValues(ByteWriter& out, const ArrayValues& array) {
+  out.varint(array.tuples());
+  if (array.type == ScalarType::String) {
+    for (const std::string& text : array.strings) writeText(out, text);
+  } else {
+    out.bytes(array.values);
+  }
+}
+
+void readValues(ByteReader& in, ArrayValues& array) {
+  const std::uint64_t tuples = in.varint();
+  // Every value takes a byte at least, so the bytes that are left bound the tuples.
+  if (tuples > in.remaining()) in.fail("the field array \"" + array.name + "\" ends early");
+  const std::uint64_t count = tuples * array.components;
+  if (array.type == ScalarType::String) {
+    for (std::uint64_t i = 0; i < count; ++i) array.strings.push_back(readText(in));
+    return;
+  }
+  const ByteView bytes = in.bytes(count * arrayValueSize(array.type));
+  array.values.assign(bytes.begin(), bytes.end());
+}
+
+}  // namespace
+
+void writeMetadata(ByteWriter& out, const Metadata& metadata) {
+  ByteWriter plain;
+  writeText(plain, metadata.crs);
+  writeText(plain, metadata.lengthUnit);
+  plain.varint(metadata.entries.size());
+  for (const auto& [key, value] : metadata.entries) {
+    writeText(plain, key);
+    writeText(plain, value);
+  }
+  plain.varint(metadata.fieldData.size());
+  for (const ArrayValues& array : metadata.fieldData) {
+    writeArrayDescription(plain, array);
+    writeValues(plain, array);
+  }
+  constexpr int kBest = 19;
+  writePacked(out, plain.data(), kBest);
+}
+
+Metadata readMetadata(ByteReader& in, const DecodeLimits& limits) {
+  const Bytes bytes = readPacked(in, limits.memoryBytes / kShareOfMemory);
+  ByteReader plain(bytes, "the metadata", ByteReader::kNoOffset);
+  Metadata metadata;
+  metadata.crs = readText(plain);
+  metadata.lengthUnit = readText(plain);
+  std::set<std::string> keys;
+  for (std::uint64_t left = plain.varint(); left > 0; --left) {
+    std::string key = readText(plain);
+    if (!keys.insert(key).second) plain.fail("two entries have the key \"" + key + "\"");
+    metadata.entries.emplace_back(std::move(key), readText(plain));
+  }
+  const std::uint64_t arrays = plain.varint();
+  if (arrays > limits.arrays) {
+    throw Error(ErrorCode::LimitExceeded, "the file has " + std::to_string(arrays) +
+                                              " field arrays, more than the limit of " +
+                                              std::to_string(limits.arrays) +
+                                              "; raise the limit if it is to be trusted");
+  }
+  for (std::uint64_t i = 0; i < arrays; ++i) {
+    ArrayValues array;
+    static_cast<ArrayDescription&>(array) = readArrayDescription(plain);
+    readValues(plain, array);
+    metadata.fieldData.push_back(std::move(array));
+  }
+  plain.expectEnd();
+  return metadata;
+}
+
+}  // namespace bspc::container
