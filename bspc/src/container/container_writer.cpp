@@ -35,7 +35,8 @@ Bytes fileStart(const FileHead& head) {
 
 }  // namespace
 
-std::uint64_t writeProgressive(ByteSink& sink, const FileHead& head, const ChunkSource& chunks) {
+std::uint64_t writeProgressive(ByteSink& sink, const FileHead& head, const ChunkSource& chunks,
+                               const MeshSource& mesh) {
   CountedSink out(sink);
   out.put(fileStart(head));
   const std::size_t columns = head.layout().columns();
@@ -44,6 +45,9 @@ std::uint64_t writeProgressive(ByteSink& sink, const FileHead& head, const Chunk
       if (head.tiles[tile].chunkSizes[column] == kNoChunk) continue;
       out.put(makeChunk(chunks(tile, column)));
     }
+  }
+  for (std::size_t block = 0; block < head.mesh.blocks; ++block) {
+    out.put(makeBlock(BlockType::Mesh, mesh(block)));
   }
   return out.written();
 }
@@ -76,8 +80,11 @@ void ContainerWriter::addTile(TileRecord record, std::vector<Bytes> chunks) {
   tiles_.push_back(std::move(record));
 }
 
-void ContainerWriter::finish() {
+void ContainerWriter::finish(const MeshSource& mesh) {
   if (head_.streaming) {
+    for (std::size_t block = 0; block < head_.mesh.blocks; ++block) {
+      put(makeBlock(BlockType::Mesh, mesh(block)));
+    }
     const std::uint64_t indexOffset = written_;
     ByteWriter index;
     writeTileTable(index, layout_, tiles_);
@@ -89,9 +96,10 @@ void ContainerWriter::finish() {
   }
   head_.tiles = std::move(tiles_);
   std::vector<std::size_t> next(head_.tiles.size());
-  written_ = writeProgressive(sink_, head_, [&](std::size_t tile, std::size_t /*column*/) {
+  const ChunkSource chunks = [&](std::size_t tile, std::size_t /*column*/) {
     return std::move(chunks_[tile][next[tile]++]);
-  });
+  };
+  written_ = writeProgressive(sink_, head_, chunks, mesh);
 }
 
 }  // namespace bspc::container
