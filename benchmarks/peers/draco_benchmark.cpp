@@ -1,11 +1,13 @@
 // Sizes and speeds of bspc beside those of Draco's kd-tree coder for point clouds, in one process
-// on one core. Run: draco_benchmark [--repeat N] FILE.ply...
+// on one core. Run: draco_benchmark [--repeat N] [--coder NAME]... FILE.ply...
 //
 // Both coders get the same whole numbers, and both must give all of them back: a model that lies
 // on no lattice is left out. Draco's coder takes integers as they are, so no quantisation comes
 // between. bspc writes one layer, since Draco has no levels of detail; sizes are of whole files,
-// times of everything between coordinates and bytes in memory. Runs of the coders alternate, so
-// that a busy spell of the machine meets all of them, and each time is the median.
+// times of everything between coordinates and bytes in memory. They are processor times, which
+// other processes disturb least; runs of the coders alternate, so that a busy spell of the machine
+// meets all of them, and each time is the median. Speeds are told relative to Draco's smallest
+// files, too. With --coder only the first and those with that in their name run.
 
 #include <draco/compression/decode.h>
 #include <draco/compression/encode.h>
@@ -13,11 +15,11 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <exception>
 #include <fstream>
 #include <functional>
@@ -117,6 +119,18 @@ std::vector<Coder> allCoders() {
   return coders;
 }
 
+/// All coders, or the first and those whose names have a part of `wanted`.
+std::vector<Coder> codersNamed(const std::vector<std::string>& wanted) {
+  std::vector<Coder> coders;
+  for (Coder& coder : allCoders()) {
+    const bool named = std::any_of(wanted.begin(), wanted.end(), [&coder](const std::string& part) {
+      return coder.name.find(part) != std::string::npos;
+    });
+    if (coders.empty() || wanted.empty() || named) coders.push_back(std::move(coder));
+  }
+  return coders;
+}
+
 /// The model's points as steps of the lattice that they lie on.
 Coordinates readOnLattice(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -156,9 +170,9 @@ struct Measurement {
 
 template <class Call>
 double secondsOf(const Call& call) {
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();
   call();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
 /// One run of a coder; the first checks what comes back.
@@ -174,8 +188,8 @@ void runOnce(const Coder& coder, const Coordinates& xyz, Measurement& result) {
 }
 
 void printHead() {
-  std::printf("%-24s %10s  %-18s %8s %12s %12s %12s\n", "file", "points", "coder", "bpp",
-              "enc Mpts/s", "dec Mpts/s", "bpp/draco 0");
+  std::printf("%-24s %10s  %-18s %8s %12s %12s  %s\n", "file", "points", "coder", "bpp",
+              "enc Mpts/s", "dec Mpts/s", "size, enc, dec / draco 0");
 }
 
 void compare(const std::string& path, const std::vector<Coder>& coders, int repetitions) {
@@ -189,29 +203,39 @@ void compare(const std::string& path, const std::vector<Coder>& coders, int repe
   const std::string name = path.substr(path.rfind('/') + 1);
   for (std::size_t c = 0; c < coders.size(); ++c) {
     const Measurement& result = results[c];
-    std::printf("%-24s %10.0f  %-18s %8.3f %12.2f %12.2f %12.3f\n", name.c_str(), points,
+    const double encodeSeconds = median(result.encodeSeconds);
+    const double decodeSeconds = median(result.decodeSeconds);
+    std::printf("%-24s %10.0f  %-18s %8.3f %12.2f %12.2f  %.3f %.2f %.2f\n", name.c_str(), points,
                 coders[c].name.c_str(), 8 * static_cast<double>(result.bytes) / points,
-                points / median(result.encodeSeconds) / 1e6,
-                points / median(result.decodeSeconds) / 1e6,
-                static_cast<double>(result.bytes) / static_cast<double>(results[0].bytes));
+                points / encodeSeconds / 1e6, points / decodeSeconds / 1e6,
+                static_cast<double>(result.bytes) / static_cast<double>(results[0].bytes),
+                median(results[0].encodeSeconds) / encodeSeconds,
+                median(results[0].decodeSeconds) / decodeSeconds);
   }
   std::fflush(stdout);
 }
 
 int usage() {
-  std::fputs("Usage: draco_benchmark [--repeat N] FILE.ply...\n", stderr);
+  std::fputs("Usage: draco_benchmark [--repeat N] [--coder NAME]... FILE.ply...\n", stderr);
   return 2;
 }
 
 int runAll(int count, char** arguments) {
   int repetitions = 7;
+  std::vector<std::string> wanted;
   int first = 1;
-  if (count > 2 && std::string(arguments[1]) == "--repeat") {
-    repetitions = static_cast<int>(std::strtol(arguments[2], nullptr, 10));
-    first = 3;
+  for (; first + 1 < count; first += 2) {
+    const std::string option = arguments[first];
+    if (option == "--repeat") {
+      repetitions = static_cast<int>(std::strtol(arguments[first + 1], nullptr, 10));
+    } else if (option == "--coder") {
+      wanted.emplace_back(arguments[first + 1]);
+    } else {
+      break;
+    }
   }
   if (first >= count || repetitions < 1) return usage();
-  const std::vector<Coder> coders = allCoders();
+  const std::vector<Coder> coders = codersNamed(wanted);
   int failures = 0;
   printHead();
   for (int i = first; i < count; ++i) {

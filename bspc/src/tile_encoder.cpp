@@ -23,6 +23,25 @@ geometry::TileInput describe(Span<const GridPoint> points) {
   return tile;
 }
 
+std::uint64_t checksumInOrder(const geometry::TileInput& tile,
+                              const std::vector<std::uint32_t>& order) {
+  constexpr std::size_t kPiece = 1024;
+  constexpr std::size_t kAhead = 32;  // points that are fetched while others are taken
+  container::ContentChecksum checksum;
+  std::vector<GridPoint> piece(std::min(kPiece, order.size()));
+  for (std::size_t first = 0; first < order.size(); first += kPiece) {
+    const std::size_t count = std::min(kPiece, order.size() - first);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t later = std::min(first + i + kAhead, order.size() - 1);
+      __builtin_prefetch(&tile.points[order[later]]);
+      const GridPoint& p = tile.points[order[first + i]];
+      piece[i] = {p[0] - tile.lower[0], p[1] - tile.lower[1], p[2] - tile.lower[2]};
+    }
+    checksum.add(Span<const GridPoint>(piece.data(), count));
+  }
+  return checksum.value();
+}
+
 /// Where the points of a tile are decoded, from its lower corner.
 std::vector<GridPoint> decodedPoints(const geometry::TileInput& tile,
                                      const std::vector<std::uint32_t>& order) {
@@ -64,13 +83,16 @@ FinishedTile TileEncoder::encode(Span<const GridPoint> points,
     for (const std::uint32_t i : coded.order) finished.sources.push_back(sources[i]);
   }
   finished.decoded = std::move(coded.decoded);
-  const std::vector<GridPoint> own =
-      finished.decoded.empty() ? decodedPoints(tile, coded.order) : std::vector<GridPoint>();
-  const std::vector<GridPoint>& decoded = finished.decoded.empty() ? own : finished.decoded;
-  finished.record.contentChecksum = container::contentChecksum(decoded);
   if (arrays_.hasWork()) {
+    const std::vector<GridPoint> own =
+        finished.decoded.empty() ? decodedPoints(tile, coded.order) : std::vector<GridPoint>();
+    const std::vector<GridPoint>& decoded = finished.decoded.empty() ? own : finished.decoded;
+    finished.record.contentChecksum = container::contentChecksum(decoded);
     addArrays(arrays_.encode({coded, decoded, finished.sources}), coded, finished);
   } else {
+    finished.record.contentChecksum = finished.decoded.empty()
+                                          ? checksumInOrder(tile, coded.order)
+                                          : container::contentChecksum(finished.decoded);
     finished.chunks = std::move(coded.layers);
   }
   return finished;

@@ -18,6 +18,8 @@ class ByteWriter {
   /// Zigzag: 0, −1, 1, −2, … as a varint.
   void signedVarint(std::int64_t value);
   void bytes(ByteView view);
+  /// Makes room for so many bytes more.
+  void reserve(std::size_t more) { bytes_.reserve(bytes_.size() + more); }
 
   std::size_t size() const { return bytes_.size(); }
   const Bytes& data() const { return bytes_; }

@@ -36,16 +36,27 @@ unsigned contentChecksumWidth(std::uint64_t points) {
   return points < 65536 / 12 + 1 ? checksumWidth(12 * points) : 8;
 }
 
-std::uint64_t contentChecksum(Span<const GridPoint> points) {
+struct ContentChecksum::State {
+  std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> hash{XXH3_createState(),
+                                                                &XXH3_freeState};
+  std::uint64_t points = 0;
+};
+
+ContentChecksum::ContentChecksum() : state_(std::make_unique<State>()) {
+  XXH3_64bits_reset(state_->hash.get());
+}
+ContentChecksum::~ContentChecksum() = default;
+
+void ContentChecksum::add(Span<const GridPoint> points) {
   static_assert(sizeof(GridPoint) == 12);
-  const unsigned width = contentChecksumWidth(points.size());
-  if (isLittleEndian()) return cut(XXH3_64bits(points.data(), 12 * points.size()), width);
+  state_->points += points.size();
+  if (isLittleEndian()) {
+    XXH3_64bits_update(state_->hash.get(), points.data(), 12 * points.size());
+    return;
+  }
   // Packed into little-endian bytes piece by piece.
   constexpr std::size_t kPiece = 1024;
   std::array<std::uint8_t, 12 * kPiece> piece{};
-  const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(),
-                                                                       &XXH3_freeState);
-  XXH3_64bits_reset(state.get());
   for (std::size_t first = 0; first < points.size(); first += kPiece) {
     const std::size_t count = std::min(kPiece, points.size() - first);
     std::uint8_t* to = piece.data();
@@ -57,9 +68,21 @@ std::uint64_t contentChecksum(Span<const GridPoint> points) {
         *to++ = static_cast<std::uint8_t>(v >> 24);
       }
     }
-    XXH3_64bits_update(state.get(), piece.data(), 12 * count);
+    XXH3_64bits_update(state_->hash.get(), piece.data(), 12 * count);
   }
-  return cut(XXH3_64bits_digest(state.get()), width);
+}
+
+std::uint64_t ContentChecksum::value() const {
+  return cut(XXH3_64bits_digest(state_->hash.get()), contentChecksumWidth(state_->points));
+}
+
+std::uint64_t contentChecksum(Span<const GridPoint> points) {
+  if (isLittleEndian()) {
+    return cut(XXH3_64bits(points.data(), 12 * points.size()), contentChecksumWidth(points.size()));
+  }
+  ContentChecksum checksum;
+  checksum.add(points);
+  return checksum.value();
 }
 
 unsigned valuesChecksumWidth(const attributes::ArrayShape& shape, std::uint64_t points) {

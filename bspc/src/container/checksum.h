@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 
 #include "attributes/array_coder.h"
 #include "bspc/grid.h"
@@ -19,6 +20,23 @@ std::uint64_t checksum(ByteView bytes, unsigned width);
 /// The checksum of a tile's decoded content: its points in decoded order, from the tile's lower
 /// corner, as little-endian 32-bit x, y, z. `width` is that of 12 bytes a point.
 std::uint64_t contentChecksum(Span<const GridPoint> points);
+
+/// The same of points that come piece by piece.
+class ContentChecksum {
+ public:
+  ContentChecksum();
+  ContentChecksum(const ContentChecksum&) = delete;
+  ContentChecksum& operator=(const ContentChecksum&) = delete;
+  ~ContentChecksum();
+
+  void add(Span<const GridPoint> points);
+  /// Of all points that were added.
+  std::uint64_t value() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 unsigned contentChecksumWidth(std::uint64_t points);
 
 /// The checksum of the values of an array in decoded order: numbers as little-endian bytes, a byte

@@ -63,10 +63,12 @@ class AxisMap {
         denominator_(static_cast<double>(grid.axes[axis].denominator)),
         origin_(grid.axes[axis].origin),
         step_(rational_ ? numerator_ / denominator_ : grid.axes[axis].step),
-        isIdentity_(rational_ && !isFloatingPoint(type_) && grid.axes[axis].numerator == 1 &&
-                    grid.axes[axis].denominator == 1) {}
+        isWhole_(rational_ && grid.axes[axis].numerator == 1 && grid.axes[axis].denominator == 1),
+        isIdentity_(isWhole_ && !isFloatingPoint(type_)) {}
 
-  /// Whether coordinates are integers that are their own multiples.
+  /// Whether multiples are coordinates themselves.
+  bool isWhole() const { return isWhole_; }
+  /// Whether, besides, all coordinates are integers by their type.
   bool isIdentity() const { return isIdentity_; }
 
   double coordinate(double multiple) const {
@@ -113,6 +115,7 @@ class AxisMap {
   double denominator_;
   double origin_;
   double step_;
+  bool isWhole_;
   bool isIdentity_;
 };
 

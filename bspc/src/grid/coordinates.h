@@ -39,6 +39,9 @@ class Coordinates {
   virtual void gather(std::size_t axis, std::uint64_t first, std::size_t count, double* out,
                       std::uint64_t hop = 1) const = 0;
 
+  /// All the points as they stand in memory; null if they do not, or some are left out.
+  virtual const PointSetView* inMemory() const { return nullptr; }
+
   /// Up to `wanted` coordinates spread over the whole set.
   std::vector<double> sample(std::size_t axis, std::size_t wanted) const;
 
@@ -80,6 +83,7 @@ class ViewCoordinates final : public Coordinates {
 
   void gather(std::size_t axis, std::uint64_t first, std::size_t count, double* out,
               std::uint64_t hop) const override;
+  const PointSetView* inMemory() const override { return kept_.empty() ? &points_ : nullptr; }
 
  private:
   template <class T>

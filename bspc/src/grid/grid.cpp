@@ -1,7 +1,9 @@
 #include "bspc/grid.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -187,37 +189,67 @@ double restoredCoordinate(const Grid& grid, int axis, std::uint32_t i) {
 
 namespace {
 
-/// Restores integers that are their own multiples: the bounds of both types, in integers.
+/// Restores a block of points whose coordinates are whole numbers in 32 bits, and are their own
+/// multiples; false if the block is not such.
 template <class T>
-void restoreIntegers(const Grid& grid, std::size_t axis, Span<const GridPoint> points, T* xyz) {
-  const std::int64_t base = grid.axes[axis].base;
-  const lattice::IntegerLimits limits = lattice::integerLimits(grid.scalarType);
-  const auto low =
-      std::max(static_cast<std::int64_t>(limits.min), std::int64_t{std::numeric_limits<T>::min()});
-  const auto high =
-      std::min(static_cast<std::int64_t>(limits.max), std::int64_t{std::numeric_limits<T>::max()});
-  for (std::size_t j = 0; j < points.size(); ++j) {
-    const std::int64_t value = base + std::int64_t{points[j][axis]};
-    xyz[3 * j + axis] = static_cast<T>(std::max(low, std::min(high, value)));
+bool restoreWhole(const Grid& grid, Span<const GridPoint> points, T* xyz) {
+  constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
+  constexpr std::int64_t kExactFloat = std::int64_t{1} << 24;
+  constexpr std::size_t kTogether = 4;  // points that fill whole vectors
+  using Block = std::array<std::uint32_t, 3 * kTogether>;
+  std::int64_t low = -kMost;
+  std::int64_t high = kMost;
+  if (std::is_integral_v<T>) {
+    low = std::max(low, static_cast<std::int64_t>(std::numeric_limits<T>::min()));
+    if (sizeof(T) < 4) high = static_cast<std::int64_t>(std::numeric_limits<T>::max());
   }
+  if (grid.scalarType == ScalarType::Float32) {
+    low = std::max(low, -kExactFloat);
+    high = std::min(high, kExactFloat);
+  } else if (!isFloatingPoint(grid.scalarType)) {
+    const lattice::IntegerLimits limits = lattice::integerLimits(grid.scalarType);
+    low = static_cast<std::int64_t>(std::max(static_cast<double>(low), limits.min));
+    high = static_cast<std::int64_t>(std::min(static_cast<double>(high), limits.max));
+  }
+  Block bases{};
+  Block all{};  // no index has a bit that is not in here
+  const std::size_t inBlocks = points.size() / kTogether * kTogether;
+  for (std::size_t first = 0; first < inBlocks; first += kTogether) {
+    Block block;
+    std::memcpy(block.data(), &points[first], sizeof block);
+    for (std::size_t i = 0; i < block.size(); ++i) all[i] |= block[i];
+  }
+  for (std::size_t j = inBlocks; j < points.size(); ++j) {
+    for (std::size_t k = 0; k < 3; ++k) all[k] |= points[j][k];
+  }
+  for (std::size_t i = 0; i < bases.size(); ++i) {
+    const std::int64_t base = grid.axes[i % 3].base;
+    if (base < low || base + std::int64_t{all[i]} > high) return false;
+    bases[i] = static_cast<std::uint32_t>(base);
+  }
+  const auto restored = [](std::uint32_t base, std::uint32_t index) {
+    return static_cast<T>(static_cast<std::int32_t>(base + index));
+  };
+  for (std::size_t first = 0; first < inBlocks; first += kTogether) {
+    Block block;
+    std::memcpy(block.data(), &points[first], sizeof block);
+    T* to = xyz + 3 * first;
+    for (std::size_t i = 0; i < block.size(); ++i) to[i] = restored(bases[i], block[i]);
+  }
+  for (std::size_t j = inBlocks; j < points.size(); ++j) {
+    for (std::size_t k = 0; k < 3; ++k) xyz[3 * j + k] = restored(bases[k], points[j][k]);
+  }
+  return true;
 }
 
-/// Whether restoreIntegers() gives what the formulas of the format give: 64-bit types have limits
-/// that are no doubles, and sums must stay exact.
-template <class T>
-bool suitsIntegers(const Grid& grid, const lattice::AxisMap& map, std::size_t axis) {
-  constexpr std::int64_t kExact = std::int64_t{1} << 52;
-  if (!std::is_integral_v<T> || sizeof(T) > 4 || scalarSize(grid.scalarType) > 4) return false;
-  const std::int64_t base = grid.axes[axis].base;
-  return map.isIdentity() && -kExact <= base && base <= kExact;
+bool hasWholeSteps(const Grid& grid) {
+  return lattice::AxisMap(grid, 0).isWhole() && lattice::AxisMap(grid, 1).isWhole() &&
+         lattice::AxisMap(grid, 2).isWhole();
 }
 
 template <class T>
 void restoreAxis(const Grid& grid, std::size_t axis, Span<const GridPoint> points, T* xyz) {
   const lattice::AxisMap map(grid, axis);
-  if constexpr (std::is_integral_v<T> && sizeof(T) <= 4) {
-    if (suitsIntegers<T>(grid, map, axis)) return restoreIntegers(grid, axis, points, xyz);
-  }
   const std::int64_t base = grid.axes[axis].base;
   for (std::size_t j = 0; j < points.size(); ++j) {
     // Through the grid's own type first: every reader then returns the same coordinate, whatever
@@ -233,8 +265,10 @@ template <class T>
 void restorePositions(const Grid& grid, Span<const GridPoint> points, T* xyz) {
   // A block stays in the cache while its three axes are restored.
   constexpr std::size_t kBlock = 1024;
+  const bool whole = hasWholeSteps(grid);
   for (std::size_t first = 0; first < points.size(); first += kBlock) {
     const std::size_t count = std::min(kBlock, points.size() - first);
+    if (whole && restoreWhole(grid, points.subspan(first, count), xyz + 3 * first)) continue;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       restoreAxis(grid, axis, points.subspan(first, count), xyz + 3 * first);
     }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include "grid/axis_map.h"
 #include "grid/known_lattice.h"
 #include "grid/lattice.h"
+#include "grid/points_in_memory.h"
 #include "grid/step_choice.h"
 
 namespace bspc {
@@ -114,7 +116,7 @@ void Progress::report(double share) {
 
 FinitePoints finitePoints(const PointSetView& points, bool drop, std::uint64_t firstIndex) {
   FinitePoints result;
-  if (!isFloatingPoint(points.type())) return result;
+  if (allFinite(points)) return result;
   const std::vector<std::uint64_t> none;
   const ViewCoordinates all(points, none);
   std::uint64_t firstBad = 0;
@@ -138,6 +140,7 @@ FinitePoints finitePoints(const PointSetView& points, bool drop, std::uint64_t f
 }
 
 Ranges rangesOf(const Coordinates& coordinates) {
+  if (const PointSetView* points = coordinates.inMemory()) return rangesInMemory(*points);
   Ranges ranges;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     // Several at a time, so that no comparison waits for the one before.
@@ -231,10 +234,52 @@ class ChunkQuantiser {
 
 }  // namespace
 
+namespace {
+
+constexpr std::uint64_t kReportEvery = 128 * Coordinates::kChunk;
+
+/// The axes of a grid of whole steps that all coordinates are known to lie on.
+std::optional<std::array<WholeAxis, 3>> wholeAxes(const Ranges& ranges, const PlacedGrid& placed) {
+  if (!placed.exact || placed.grid.form != Grid::Form::Rational) return std::nullopt;
+  std::array<WholeAxis, 3> axes;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Grid::Axis& axis = placed.grid.axes[k];
+    const double lowest = ranges[k].min;
+    if (axis.denominator != 1 || !(std::fabs(lowest) < kMaxMultiple)) return std::nullopt;
+    // The search looks at axes on which points differ.
+    const bool onGrid = !ranges[k].constant() || AxisMap(placed.grid, k).snap(lowest).error == 0;
+    if (!onGrid) return std::nullopt;
+    axes[k] = {static_cast<std::int64_t>(lowest),
+               ExactDivisor(static_cast<std::uint64_t>(axis.numerator))};
+  }
+  return axes;
+}
+
+void quantiseWhole(const PointSetView& view, const std::array<WholeAxis, 3>& axes,
+                   const GridPointSink& sink, const ShareReport& report) {
+  std::vector<GridPoint> points(Coordinates::kChunk);
+  for (std::uint64_t first = 0; first < view.size(); first += Coordinates::kChunk) {
+    if (first % kReportEvery == 0) {
+      report(static_cast<double>(first) / static_cast<double>(view.size()));
+    }
+    const auto count =
+        static_cast<std::size_t>(std::min<std::uint64_t>(Coordinates::kChunk, view.size() - first));
+    wholeIndices(view, first, count, axes, points.data());
+    sink(first, Span<const GridPoint>(points.data(), count));
+  }
+}
+
+}  // namespace
+
 std::array<double, 3> quantise(const Coordinates& coordinates, const Ranges& ranges,
                                const PlacedGrid& placed, const GridPointSink& sink,
                                const ShareReport& report) {
-  constexpr std::uint64_t kReportEvery = 128 * Coordinates::kChunk;
+  const PointSetView* view = coordinates.inMemory();
+  const auto whole = view != nullptr ? wholeAxes(ranges, placed) : std::nullopt;
+  if (whole) {
+    quantiseWhole(*view, *whole, sink, report);
+    return {};
+  }
   std::array<ChunkQuantiser, 3> axes{ChunkQuantiser(placed, 0, ranges[0]),
                                      ChunkQuantiser(placed, 1, ranges[1]),
                                      ChunkQuantiser(placed, 2, ranges[2])};

@@ -7,6 +7,8 @@
 #include <numeric>
 
 #include "grid/affine_lattice.h"
+#include "grid/exact_divisor.h"
+#include "grid/points_in_memory.h"
 #include "grid/ratio.h"
 
 namespace bspc::lattice {
@@ -32,25 +34,28 @@ constexpr std::size_t kProbe = 128;
 class Checker {
  public:
   Checker(const AxisMap& map, bool wantsDivisor) : map_(map), wantsDivisor_(wantsDivisor) {}
-  std::uint64_t divisor() const { return divisor_; }
+  std::uint64_t divisor() const { return any_ ? divisor_.value() : 0; }
 
   bool operator()(double value) {
     if (!map_.reaches(value)) return false;
     const double multiple = nearestInteger(map_.quotient(value));
     if (map_.restored(multiple) != value) return false;
-    if (wantsDivisor_ && divisor_ != 1) take(multiple);
+    if (wantsDivisor_) take(multiple);
     return true;
   }
 
  private:
   void take(double multiple) {
     const auto k = static_cast<std::uint64_t>(std::fabs(multiple));
-    if (divisor_ == 0 || k % divisor_ != 0) divisor_ = std::gcd(divisor_, k);
+    if (k == 0 || (any_ && divisor_.divides(k))) return;
+    divisor_ = ExactDivisor(any_ ? std::gcd(divisor_.value(), k) : k);
+    any_ = true;
   }
 
   AxisMap map_;
   bool wantsDivisor_;
-  std::uint64_t divisor_ = 0;
+  bool any_ = false;
+  ExactDivisor divisor_;  ///< of what was not zero
 };
 
 /// The largest power of two that divides `value`, which is not zero, as exponent.
@@ -257,6 +262,13 @@ bool liesOn(const Coordinates& coordinates, std::size_t axis, const AxisMap& map
   Checker check(map, divisor != nullptr);
   // Integers need no check, only their divisor, which seldom takes many of them.
   const bool whole = map.isIdentity();
+  const PointSetView* points = coordinates.inMemory();
+  if (map.isWhole() && points != nullptr) {
+    if (whole && divisor == nullptr) return true;
+    const auto common = wholeDivisor(*points, axis);
+    if (common && divisor != nullptr) *divisor = *common;
+    return common.has_value();
+  }
   if (!whole || divisor != nullptr) {
     const bool all = coordinates.all(
         axis, [&](double value) { return check(value) && !(whole && check.divisor() == 1); });

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <tuple>
 
 #include "bspc/error.h"
 
@@ -21,6 +22,27 @@ std::vector<std::uint32_t> lattice(std::size_t count, std::uint64_t step) {
   std::vector<std::uint32_t> values;
   for (std::size_t i = 0; i < count; ++i) {
     values.push_back(static_cast<std::uint32_t>(i * step / 1000));
+  }
+  return values;
+}
+
+/// Points whose y is that of `coordinates`, with a corner at y = 7.
+std::vector<GridPoint> pointsAlongY(const std::vector<std::uint32_t>& coordinates) {
+  std::vector<GridPoint> points;
+  for (const std::uint32_t c : coordinates) points.push_back({1, c + 7, 2});
+  return points;
+}
+
+/// What is found worth ranking; checks the ranks against it.
+std::vector<std::uint32_t> valuesOf(const std::vector<std::uint32_t>& coordinates,
+                                    std::uint32_t extent) {
+  const std::vector<GridPoint> points = pointsAlongY(coordinates);
+  const AxisColumn column(points, 1, 7);
+  std::vector<std::uint32_t> values = valuesWorthRanking(column, extent);
+  const AxisRanks ranks(column, values);
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    const std::uint32_t rank = ranks.rank(coordinates[i], i);
+    EXPECT_EQ(values.empty() ? rank : values[rank], coordinates[i]);
   }
   return values;
 }
@@ -65,17 +87,21 @@ TEST(AxisRemap, RanksAreFoundWhereTheyPay) {
     wide.push_back(static_cast<std::uint32_t>(random() % 401) * 10000000U);
     all.push_back(static_cast<std::uint32_t>(random() % 4096));
   }
-  const std::vector<std::uint32_t> values = valuesWorthRanking(coarse, 5000);
-  ASSERT_EQ(values.size(), 501U);
-  EXPECT_TRUE(isRegular(values));
-  const std::vector<std::uint32_t> ranks = ranksOf(coarse, values);
-  for (std::size_t i = 0; i < ranks.size(); ++i) ASSERT_EQ(values[ranks[i]], coarse[i]);
-  const std::vector<std::uint32_t> wideValues = valuesWorthRanking(wide, 4000000000U);
-  ASSERT_EQ(wideValues.size(), 401U);
-  const std::vector<std::uint32_t> wideRanks = ranksOf(wide, wideValues);
-  for (std::size_t i = 0; i < wide.size(); ++i) ASSERT_EQ(wideValues[wideRanks[i]], wide[i]);
-  EXPECT_TRUE(valuesWorthRanking(all, 4095).empty());
-  EXPECT_TRUE(valuesWorthRanking({0, 9}, 9).empty());
+  std::vector<std::uint32_t> middling{0, 200000};
+  for (unsigned i = 0; i < 4000; ++i) {
+    middling.push_back(static_cast<std::uint32_t>(random() % 101) * 2000);
+  }
+  std::vector<std::uint32_t> dense = coarse;
+  dense.insert(dense.end(), coarse.begin(), coarse.end());
+  for (const auto& [coordinates, extent, distinct] :
+       {std::tuple{coarse, 5000U, 501U}, std::tuple{dense, 5000U, 501U},
+        std::tuple{middling, 200000U, 101U}, std::tuple{wide, 4000000000U, 401U}}) {
+    const std::vector<std::uint32_t> values = valuesOf(coordinates, extent);
+    EXPECT_EQ(values.size(), distinct);
+    EXPECT_TRUE(isRegular(values) || extent > 5000);
+  }
+  EXPECT_TRUE(valuesOf(all, 4095).empty());
+  EXPECT_TRUE(valuesOf({0, 9}, 9).empty());
 }
 
 TEST(AxisRemap, RefusesClaimsThatCannotBe) {

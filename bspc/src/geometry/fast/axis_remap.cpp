@@ -52,13 +52,49 @@ class StepContext {
   unsigned repeats_ = 0;
 };
 
-/// Extents up to so many times the number of points are looked at value by value.
+/// Extents below so many times the number of points are looked at value by value.
 constexpr std::uint64_t kDense = 64;
+/// Extents up to here, and not above the number of points, have a byte a value.
+constexpr std::uint32_t kBytes = 1U << 18;
 
-std::vector<std::uint32_t> distinctDense(const std::vector<std::uint32_t>& coordinates,
-                                         std::uint32_t extent) {
+/// Whether ranks of so many of an axis's values would be worth their list.
+bool paysToRank(std::size_t points, double distinct, double range) {
+  const double saved = std::log2(range / distinct);
+  return distinct<0.9 * range&& static_cast<double>(points) * saved> 1.1 * distinct *
+             (1.2 + saved) +
+         256;
+}
+
+/// Gives up, and returns nothing, where values turn out too many.
+std::vector<std::uint32_t> distinctInBytes(const AxisColumn& coordinates, std::uint32_t extent) {
+  constexpr std::size_t kAtOnce = 4096;
+  const double range = static_cast<double>(extent) + 1;
+  std::vector<std::uint8_t> used(std::size_t{extent} + 1, 0);
+  std::size_t distinct = 0;
+  for (std::size_t first = 0; first < coordinates.size(); first += kAtOnce) {
+    const std::size_t last = std::min(first + kAtOnce, coordinates.size());
+    for (std::size_t i = first; i < last; ++i) {
+      std::uint8_t& here = used[coordinates[i]];
+      distinct += here ^ 1U;
+      here = 1;
+    }
+    if (!paysToRank(coordinates.size(), static_cast<double>(distinct), range)) return {};
+  }
+  std::vector<std::uint32_t> values(distinct + 1);  // one is written in vain
+  std::size_t count = 0;
+  for (std::uint32_t c = 0; c <= extent; ++c) {
+    values[count] = c;
+    count += used[c];
+  }
+  values.pop_back();
+  return values;
+}
+
+std::vector<std::uint32_t> distinctInBits(const AxisColumn& coordinates, std::uint32_t extent) {
   std::vector<std::uint64_t> used(extent / 64 + 1, 0);
-  for (const std::uint32_t c : coordinates) used[c / 64] |= std::uint64_t{1} << (c % 64);
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    used[coordinates[i] / 64] |= std::uint64_t{1} << (coordinates[i] % 64);
+  }
   std::vector<std::uint32_t> values;
   for (std::size_t word = 0; word < used.size(); ++word) {
     for (std::uint64_t bits = used[word]; bits != 0; bits &= bits - 1) {
@@ -70,57 +106,55 @@ std::vector<std::uint32_t> distinctDense(const std::vector<std::uint32_t>& coord
 }
 
 /// Over a wide range values rarely repeat; a sample tells whether these do.
-std::vector<std::uint32_t> distinctSparse(const std::vector<std::uint32_t>& coordinates) {
+std::vector<std::uint32_t> distinctSparse(const AxisColumn& coordinates) {
   constexpr std::size_t kSample = 1024;
   const std::size_t step = std::max<std::size_t>(coordinates.size() / kSample, 1);
   std::vector<std::uint32_t> values;
-  for (std::size_t i = 0; i < coordinates.size(); i += step) values.push_back(coordinates[i]);
-  const auto makeDistinct = [&values] {
+  const auto take = [&values, &coordinates](std::size_t hop) {
+    values.clear();
+    for (std::size_t i = 0; i < coordinates.size(); i += hop) values.push_back(coordinates[i]);
+    const std::size_t taken = values.size();
     std::sort(values.begin(), values.end());
     values.erase(std::unique(values.begin(), values.end()), values.end());
+    return taken;
   };
-  const std::size_t sampled = values.size();
-  makeDistinct();
+  const std::size_t sampled = take(step);
   if (sampled - values.size() < sampled / 64 + 1) return {};
-  values = coordinates;
-  makeDistinct();
+  take(1);
   return values;
 }
 
 }  // namespace
 
-std::vector<std::uint32_t> valuesWorthRanking(const std::vector<std::uint32_t>& coordinates,
-                                              std::uint32_t extent) {
+std::vector<std::uint32_t> valuesWorthRanking(const AxisColumn& coordinates, std::uint32_t extent) {
   const std::size_t n = coordinates.size();
   if (n < 16 || extent < 2) return {};
+  std::vector<std::uint32_t> values = extent < kBytes && extent <= n
+                                          ? distinctInBytes(coordinates, extent)
+                                      : extent / kDense < n ? distinctInBits(coordinates, extent)
+                                                            : distinctSparse(coordinates);
   const double range = static_cast<double>(extent) + 1;
-  std::vector<std::uint32_t> values =
-      extent / kDense < n ? distinctDense(coordinates, extent) : distinctSparse(coordinates);
-  if (values.empty()) return {};
-  const auto distinct = static_cast<double>(values.size());
-  const double saved = std::log2(range / distinct);
-  const bool pays = static_cast<double>(n) * saved > 1.1 * distinct * (1.2 + saved) + 256 &&
-                    distinct < 0.9 * range;
-  if (!pays) values.clear();
+  if (!values.empty() && !paysToRank(n, static_cast<double>(values.size()), range)) values.clear();
   return values;
 }
 
-std::vector<std::uint32_t> ranksOf(const std::vector<std::uint32_t>& coordinates,
-                                   const std::vector<std::uint32_t>& values) {
-  std::vector<std::uint32_t> ranks(coordinates.size());
-  if (values.back() / kDense < coordinates.size()) {
-    std::vector<std::uint32_t> rankOf(std::size_t{values.back()} + 1);
+AxisRanks::AxisRanks(const AxisColumn& coordinates, const std::vector<std::uint32_t>& values) {
+  if (values.empty()) return;
+  // A table that stays small against the points, or else a search for each point.
+  if (values.back() <= 2 * coordinates.size()) {
+    kind_ = Kind::OfValue;
+    ranks_.resize(std::size_t{values.back()} + 1);
     for (std::size_t r = 0; r < values.size(); ++r) {
-      rankOf[values[r]] = static_cast<std::uint32_t>(r);
+      ranks_[values[r]] = static_cast<std::uint32_t>(r);
     }
-    for (std::size_t i = 0; i < ranks.size(); ++i) ranks[i] = rankOf[coordinates[i]];
-    return ranks;
+    return;
   }
-  for (std::size_t i = 0; i < ranks.size(); ++i) {
-    ranks[i] = static_cast<std::uint32_t>(
+  kind_ = Kind::OfPoint;
+  ranks_.resize(coordinates.size());
+  for (std::size_t i = 0; i < ranks_.size(); ++i) {
+    ranks_[i] = static_cast<std::uint32_t>(
         std::lower_bound(values.begin(), values.end(), coordinates[i]) - values.begin());
   }
-  return ranks;
 }
 
 bool isRegular(const std::vector<std::uint32_t>& values) {

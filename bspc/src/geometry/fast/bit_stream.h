@@ -25,13 +25,23 @@ class BitWriter {
   /// `value` < 2^width, width ≤ kMaxFieldBits.
   void put(std::uint64_t value, unsigned width) {
     reserve(8);
-    pending_ |= value << pendingBits_;
-    storeLittle64(&bytes_[at_], pending_);
-    pendingBits_ += width;
-    at_ += pendingBits_ >> 3;
-    // Shifting by 64 is not defined, and happens when eight whole bytes are done.
-    pending_ = pendingBits_ == 64 ? 0 : pending_ >> (pendingBits_ & ~7U);
-    pendingBits_ &= 7;
+    Place place = place_;
+    append(place, bytes_.data(), value, width);
+    place_ = place;
+  }
+
+  /// Puts `count` fields; field(i, width) returns the value of the i-th and sets its width.
+  template <class Field>
+  void putEach(std::size_t count, const Field& field) {
+    reserve(8 * count);
+    std::uint8_t* bytes = bytes_.data();
+    Place place = place_;
+    for (std::size_t i = 0; i < count; ++i) {
+      unsigned width = 0;
+      const std::uint64_t value = field(i, width);
+      append(place, bytes, value, width);
+    }
+    place_ = place;
   }
 
   /// The `width` lowest bits of each of `count` values.
@@ -39,7 +49,10 @@ class BitWriter {
   void putLowBits(const T* values, std::size_t count, unsigned width) {
     if (width == 0) return;
     const std::uint64_t mask = lowBits(width);
-    for (std::size_t i = 0; i < count; ++i) put(values[i] & mask, width);
+    putEach(count, [=](std::size_t i, unsigned& fieldWidth) {
+      fieldWidth = width;
+      return std::uint64_t{values[i] & mask};
+    });
   }
 
   /// The shape that BitReader shares, for code that serves both directions.
@@ -48,22 +61,38 @@ class BitWriter {
     return value;
   }
 
-  std::size_t bitCount() const { return 8 * at_ + pendingBits_; }
+  std::size_t bitCount() const { return 8 * place_.at + place_.pendingBits; }
 
   Bytes finish() {
-    bytes_.resize(at_ + (pendingBits_ > 0 ? 1 : 0));
+    bytes_.resize(place_.at + (place_.pendingBits > 0 ? 1 : 0));
     return std::move(bytes_);
   }
 
  private:
+  /// Where the next bit goes. Loops keep it in registers, which members cannot be: bytes that are
+  /// written could be theirs.
+  struct Place {
+    std::size_t at = 0;
+    std::uint64_t pending = 0;
+    unsigned pendingBits = 0;
+  };
+
+  static void append(Place& place, std::uint8_t* bytes, std::uint64_t value, unsigned width) {
+    place.pending |= value << place.pendingBits;
+    storeLittle64(bytes + place.at, place.pending);
+    place.pendingBits += width;
+    place.at += place.pendingBits >> 3;
+    // Shifting by 64 is not defined, and happens when eight whole bytes are done.
+    place.pending = place.pendingBits == 64 ? 0 : place.pending >> (place.pendingBits & ~7U);
+    place.pendingBits &= 7;
+  }
+
   void reserve(std::size_t more) {
-    if (bytes_.size() < at_ + more) bytes_.resize(2 * bytes_.size() + 64);
+    if (bytes_.size() < place_.at + more) bytes_.resize(2 * bytes_.size() + more + 64);
   }
 
   Bytes bytes_;
-  std::size_t at_ = 0;
-  std::uint64_t pending_ = 0;
-  unsigned pendingBits_ = 0;
+  Place place_;
 };
 
 /// Reads what BitWriter packed. kSectionPadding bytes behind the section must be readable.

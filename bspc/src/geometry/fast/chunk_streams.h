@@ -70,6 +70,8 @@ struct ChunkWriter {
   RansWriter fields;
   BitWriter raw;
 
+  explicit ChunkWriter(std::size_t points) : gaps(points), residuals(points) {}
+
   std::uint64_t field(Field which, std::uint64_t value) {
     const unsigned symbol = kFieldCode.symbolOf(value);
     fields.symbol(which, symbol);
@@ -104,12 +106,12 @@ struct ChunkWriter {
       raw.putLowBits(values, count, shift);
       return;
     }
-    for (std::size_t i = 0; i < count; ++i) {
+    raw.putEach(count, [&](std::size_t i, unsigned& width) {
       const unsigned symbol = code.symbolOf(std::uint64_t{values[i]} >> shift);
       symbols[i] = static_cast<std::uint8_t>(symbol);
-      const unsigned width = shift + code.extraBits(symbol);
-      if (width > 0) raw.put(values[i] - (code.base(symbol) << shift), width);
-    }
+      width = shift + code.extraBits(symbol);
+      return values[i] - (code.base(symbol) << shift);
+    });
   }
 };
 
@@ -159,19 +161,22 @@ struct ChunkReader {
         return;
       }
       const std::size_t from = raw.advance(count * shift);
+      const BitReader bits = raw;  // copies live in registers
       for (std::size_t i = 0; i < count; ++i) {
         values[i] =
-            static_cast<T>((std::uint64_t{symbols[i]} << shift) | raw.at(from + i * shift, shift));
+            static_cast<T>((std::uint64_t{symbols[i]} << shift) | bits.at(from + i * shift, shift));
       }
       return;
     }
+    if (shift + code.extraBits(greatest) > kMaxFieldBits) {
+      throw Error(ErrorCode::Corrupt, "a value has more bits than any coordinate");
+    }
+    BitReader bits = raw;
     for (std::size_t i = 0; i < count; ++i) {
       const unsigned width = shift + code.extraBits(symbols[i]);
-      if (width > kMaxFieldBits) {
-        throw Error(ErrorCode::Corrupt, "a value has more bits than any coordinate");
-      }
-      values[i] = static_cast<T>((code.base(symbols[i]) << shift) + raw.get(width));
+      values[i] = static_cast<T>((code.base(symbols[i]) << shift) + bits.get(width));
     }
+    raw = bits;
   }
 };
 

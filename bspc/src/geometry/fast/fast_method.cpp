@@ -40,41 +40,51 @@ std::vector<std::uint32_t> identity(std::size_t count) {
 }
 
 std::vector<std::uint32_t> sequenceOf(const TileInput& tile) {
-  if (tile.layers > 1) {
-    std::vector<GridPoint> points(tile.points.begin(), tile.points.end());
-    for (GridPoint& p : points) {
-      for (unsigned k = 0; k < 3; ++k) p[k] -= tile.lower[k];
-    }
-    return hilbertSequence(points, tile.extent);
+  std::vector<GridPoint> points(tile.points.begin(), tile.points.end());
+  for (GridPoint& p : points) {
+    for (unsigned k = 0; k < 3; ++k) p[k] -= tile.lower[k];
   }
-  return identity(tile.points.size());
+  return hilbertSequence(points, tile.extent);
 }
 
+/// The points that come with a layer.
+SetPoints pointsOfLayer(const RankedPoints& ranked, const std::vector<std::uint32_t>& sequence,
+                        const LayerStrides& strides, unsigned layer) {
+  std::vector<std::uint32_t> chosen;
+  chosen.reserve(strides.inLayer(layer));
+  for (std::uint64_t stop = 0; stop < strides.upTo(layer); ++stop) {
+    const std::uint64_t place = stop << strides.strideBits(layer);
+    if (strides.isNew(place, layer)) chosen.push_back(sequence[place]);
+  }
+  return {ranked, std::move(chosen)};
+}
+
+/// With the scale that `header` has.
 EncodedTile encodeAlongHilbert(const TileInput& tile, const RankedPoints& ranked,
-                               const PointProgress& progress) {
+                               const TileHeader& header, const PointProgress& progress) {
   EncodedTile result;
   result.nestsPoints = true;
-  result.order.reserve(tile.points.size());
-  const std::vector<std::uint32_t> sequence = sequenceOf(tile);
-  const LayerStrides strides(sequence.size(), tile.layers, ranked.header.ratioBits);
+  const bool layered = tile.layers > 1;
+  const std::vector<std::uint32_t> sequence =
+      layered ? sequenceOf(tile) : std::vector<std::uint32_t>();
+  const LayerStrides strides(tile.points.size(), tile.layers, header.ratioBits);
   for (unsigned layer = 0; layer < tile.layers; ++layer) {
-    container::ByteWriter payload;
-    if (layer == 0) writeHeader(payload, ranked.header, tile.layers);
-    std::vector<TilePoint> points;
-    points.reserve(strides.inLayer(layer));
-    for (std::uint64_t stop = 0; stop < strides.upTo(layer); ++stop) {
-      const std::uint64_t place = stop << strides.strideBits(layer);
-      if (!strides.isNew(place, layer)) continue;
-      const std::uint32_t i = sequence[place];
-      points.push_back(
-          {{ranked.coordinates[0][i], ranked.coordinates[1][i], ranked.coordinates[2][i]}, i});
+    container::ByteWriter start;
+    if (layer == 0) writeHeader(start, header, tile.layers);
+    Bytes payload = start.take();
+    const SetPoints points =
+        layered ? pointsOfLayer(ranked, sequence, strides, layer) : SetPoints(ranked);
+    if (points.size() > 0) {
+      CodedSet set = encodeSet(header.frame, points, tile.wishes.effort);
+      set.bytes.insert(set.bytes.begin(), payload.begin(), payload.end());
+      payload = std::move(set.bytes);
+      if (result.order.empty()) {
+        result.order = std::move(set.order);
+      } else {
+        result.order.insert(result.order.end(), set.order.begin(), set.order.end());
+      }
     }
-    if (!points.empty()) {
-      const CodedSet set = encodeSet(ranked.header.frame, points, tile.wishes.effort);
-      payload.bytes(set.bytes);
-      result.order.insert(result.order.end(), set.order.begin(), set.order.end());
-    }
-    result.layers.push_back(payload.take());
+    result.layers.push_back(std::move(payload));
     if (layer + 1 < tile.layers) {
       result.coarse.push_back(summaryOf(tile, sequence, strides, layer));
     }
@@ -94,29 +104,30 @@ constexpr std::size_t kFewPoints = 8192;
 
 /// Whether ways to code a tile are tried that take much longer than the usual one.
 bool isThorough(const RankedPoints& ranked, unsigned effort) {
-  return effort >= 3 || ranked.coordinates[0].size() <= kFewPoints;
+  return effort >= 3 || ranked.size() <= kFewPoints;
 }
 
 /// Whether the order of the input is worth a try: it is slower to code.
 bool isInputOrderPromising(const RankedPoints& ranked, unsigned effort, const EncodedTile& other) {
   constexpr double kAllowance = 1.1;  // the sample may be worse than the whole
   if (!isThorough(ranked, effort)) return false;
-  const std::size_t points = ranked.coordinates[0].size();
+  const std::size_t points = ranked.size();
   if (points <= kFewPoints) return true;
   const double otherBits = 8.0 * static_cast<double>(totalBytes(other));
   return estimateInInputOrder(ranked) * static_cast<double>(points) < kAllowance * otherBits;
 }
 
-EncodedTile encodeInInputOrder(const TileInput& tile, RankedPoints& ranked) {
-  ranked.header.sequence = Sequence::Input;
+EncodedTile encodeInInputOrder(const TileInput& tile, const RankedPoints& ranked) {
+  TileHeader header = ranked.header();
+  header.sequence = Sequence::Input;
   EncodedTile result;
   result.order = identity(tile.points.size());
-  const LayerStrides strides(tile.points.size(), tile.layers, ranked.header.ratioBits);
+  const LayerStrides strides(tile.points.size(), tile.layers, header.ratioBits);
   result.nestsPoints = true;
   if (tile.layers > 1) result.layerOrder = strides.layerAfterLayer(tile.layers - 1);
   for (unsigned layer = 0; layer < tile.layers; ++layer) {
     container::ByteWriter payload;
-    if (layer == 0) writeHeader(payload, ranked.header, tile.layers);
+    if (layer == 0) writeHeader(payload, header, tile.layers);
     if (strides.inLayer(layer) > 0) payload.bytes(writeInInputOrder(ranked, strides, layer));
     result.layers.push_back(payload.take());
     if (layer + 1 < tile.layers) {
@@ -152,13 +163,13 @@ EncodedTile FastMethod::encode(const TileInput& tile, const PointProgress& progr
                 "method fast codes at most 4,294,967,295 points in one tile, and this set has " +
                     std::to_string(tile.points.size()));
   }
-  fast::RankedPoints ranked = fast::rankPoints(tile);
-  EncodedTile best = fast::encodeAlongHilbert(tile, ranked, progress);
+  const fast::RankedPoints ranked(tile);
+  EncodedTile best = fast::encodeAlongHilbert(tile, ranked, ranked.header(), progress);
   if (fast::isThorough(ranked, tile.wishes.effort) &&
-      ranked.otherScale != ranked.header.frame.scale) {
-    fast::RankedPoints rescaled = ranked;
-    rescaled.header.frame.scale = ranked.otherScale;
-    EncodedTile other = fast::encodeAlongHilbert(tile, rescaled, progress);
+      ranked.otherScale() != ranked.header().frame.scale) {
+    fast::TileHeader rescaled = ranked.header();
+    rescaled.frame.scale = ranked.otherScale();
+    EncodedTile other = fast::encodeAlongHilbert(tile, ranked, rescaled, progress);
     if (fast::totalBytes(other) < fast::totalBytes(best)) best = std::move(other);
   }
   if (fast::isInputOrderPromising(ranked, tile.wishes.effort, best)) {

@@ -15,19 +15,15 @@ namespace {
 using Writing = OrderCoder<entropy::SymbolWriter>;
 using Reading = OrderCoder<entropy::SymbolReader>;
 
-GridPoint rankedPoint(const RankedPoints& ranked, std::uint64_t i) {
-  return {ranked.coordinates[0][i], ranked.coordinates[1][i], ranked.coordinates[2][i]};
-}
-
 }  // namespace
 
 Bytes writeInInputOrder(const RankedPoints& ranked, const LayerStrides& strides, unsigned layer) {
-  const auto points = std::make_unique<Writing>(ranked.header.frame.extent);
+  const auto points = std::make_unique<Writing>(ranked.header().frame.extent);
   entropy::SymbolWriter coder;
   const std::uint64_t count = strides.upTo(layer);
   for (std::uint64_t i = 0; i < count; ++i) {
     const std::uint64_t place = i << strides.strideBits(layer);
-    GridPoint p = rankedPoint(ranked, place);
+    GridPoint p = ranked[place];
     if (strides.isNew(place, layer)) {
       points->code(coder, p);
     } else {
@@ -65,13 +61,13 @@ void readInInputOrder(ByteView payload, const LayerStrides& strides, unsigned la
 double estimateInInputOrder(const RankedPoints& ranked) {
   constexpr std::size_t kWarmUp = 1024;
   constexpr std::size_t kSample = 2048;
-  const std::size_t count = ranked.coordinates[0].size();
+  const std::size_t count = ranked.size();
   if (count <= kWarmUp + kSample) return 0;
-  const auto points = std::make_unique<Writing>(ranked.header.frame.extent);
+  const auto points = std::make_unique<Writing>(ranked.header().frame.extent);
   const auto code = [&](std::size_t first, std::size_t last) {
     entropy::SymbolWriter coder;
     for (std::size_t i = first; i < last; ++i) {
-      GridPoint p = rankedPoint(ranked, i);
+      GridPoint p = ranked[i];
       points->code(coder, p);
     }
     return 8.0 * static_cast<double>(coder.finish().size());

@@ -1,28 +1,45 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 
 namespace bspc::geometry::fast {
 
-// Byte by byte, so that the result is the same on every machine; compilers make one load or store
-// of it where the machine allows.
+/// Whether numbers stand in memory as they do in files.
+#if defined(__BYTE_ORDER__) && defined(__ORDER_LITTLE_ENDIAN__)
+constexpr bool kLittleEndian = __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__;
+#else
+constexpr bool kLittleEndian = false;  // the way that works everywhere
+#endif
 
-inline std::uint32_t loadLittle16(const std::uint8_t* p) {
-  return static_cast<std::uint32_t>(p[0]) | (static_cast<std::uint32_t>(p[1]) << 8);
-}
-
-inline std::uint32_t loadLittle32(const std::uint8_t* p) {
-  return loadLittle16(p) | (loadLittle16(p + 2) << 16);
-}
-
-inline std::uint64_t loadLittle64(const std::uint8_t* p) {
-  std::uint64_t value = 0;
-  for (unsigned i = 0; i < 8; ++i) value |= std::uint64_t{p[i]} << (8 * i);
+template <class Number>
+Number loadLittle(const std::uint8_t* p) {
+  Number value = 0;
+  if constexpr (kLittleEndian) {
+    std::memcpy(&value, p, sizeof value);
+  } else {
+    for (unsigned i = 0; i < sizeof value; ++i) {
+      value = static_cast<Number>(value | (Number{p[i]} << (8 * i)));
+    }
+  }
   return value;
 }
 
-inline void storeLittle64(std::uint8_t* p, std::uint64_t value) {
-  for (unsigned i = 0; i < 8; ++i) p[i] = static_cast<std::uint8_t>(value >> (8 * i));
+template <class Number>
+void storeLittle(std::uint8_t* p, Number value) {
+  if constexpr (kLittleEndian) {
+    std::memcpy(p, &value, sizeof value);
+  } else {
+    for (unsigned i = 0; i < sizeof value; ++i) p[i] = static_cast<std::uint8_t>(value >> (8 * i));
+  }
 }
+
+inline std::uint32_t loadLittle16(const std::uint8_t* p) { return loadLittle<std::uint16_t>(p); }
+inline std::uint32_t loadLittle32(const std::uint8_t* p) { return loadLittle<std::uint32_t>(p); }
+inline std::uint64_t loadLittle64(const std::uint8_t* p) { return loadLittle<std::uint64_t>(p); }
+inline void storeLittle16(std::uint8_t* p, std::uint32_t value) {
+  storeLittle(p, static_cast<std::uint16_t>(value));
+}
+inline void storeLittle64(std::uint8_t* p, std::uint64_t value) { storeLittle(p, value); }
 
 }  // namespace bspc::geometry::fast

@@ -1,7 +1,7 @@
 #include "geometry/fast/rans.h"
 
 #include <algorithm>
-#include <string>
+#include <memory>
 
 #include "bspc/error.h"
 
@@ -47,29 +47,31 @@ EncodingTable encodingTable(const FrequencyTable& frequencies) {
   return table;
 }
 
-/// Writes words from the end of a buffer towards its front.
+/// Room for words that are written from its end towards its front. What is not used is never
+/// touched.
 class BackwardWords {
  public:
-  explicit BackwardWords(std::size_t words) : bytes_(2 * words + 2), at_(bytes_.size()) {}
+  explicit BackwardWords(std::size_t words)
+      : size_(2 * words + 2), bytes_(new std::uint8_t[2 * words + 2]) {}
 
-  void encode(std::uint32_t& state, const EncodingSymbol& symbol) {
-    const std::uint32_t x = state;
-    const bool full = x >= symbol.limit;
-    bytes_[at_ - 1] = static_cast<std::uint8_t>(x >> 8);
-    bytes_[at_ - 2] = static_cast<std::uint8_t>(x);
-    at_ -= full ? 2 : 0;
-    const std::uint32_t y = full ? x >> 16 : x;
-    const auto quotient =
-        static_cast<std::uint32_t>((std::uint64_t{y} * symbol.reciprocal) >> 32) >> symbol.shift;
-    state = y + symbol.bias + quotient * symbol.complement;
-  }
-  const std::uint8_t* begin() const { return bytes_.data() + at_; }
-  const std::uint8_t* end() const { return bytes_.data() + bytes_.size(); }
+  std::uint8_t* end() const { return bytes_.get() + size_; }
 
  private:
-  Bytes bytes_;
-  std::size_t at_;
+  std::size_t size_;
+  std::unique_ptr<std::uint8_t[]> bytes_;
 };
+
+/// Codes a symbol; `at` is where the last word begins.
+inline void encode(std::uint32_t& state, const EncodingSymbol& symbol, std::uint8_t*& at) {
+  const std::uint32_t x = state;
+  const bool full = x >= symbol.limit;
+  storeLittle16(at - 2, x);
+  at -= full ? 2 : 0;
+  const std::uint32_t y = full ? x >> 16 : x;
+  const auto quotient =
+      static_cast<std::uint32_t>((std::uint64_t{y} * symbol.reciprocal) >> 32) >> symbol.shift;
+  state = y + symbol.bias + quotient * symbol.complement;
+}
 
 }  // namespace
 
@@ -96,28 +98,32 @@ Bytes RansWriter::finish(const std::vector<FrequencyTable>& tables, unsigned lan
   for (const FrequencyTable& t : tables) encoding.push_back(encodingTable(t));
   std::array<std::uint32_t, kMaxLanes> states{};
   states.fill(kRansLow);
-  BackwardWords words(symbols_.size());
+  const BackwardWords words(symbols_.size());
+  std::uint8_t* at = words.end();
   const std::uint8_t* symbol = symbols_.data() + symbols_.size();
   for (std::size_t r = runs_.size(); r-- > 0;) {
     const EncodingTable& table = encoding[runs_[r] & 0xFF];
     std::uint32_t i = runs_[r] >> 8;
     if (lanes == kMaxLanes) {
-      while (i % kMaxLanes != 0) words.encode(states[--i % kMaxLanes], table[*--symbol]);
+      while (i % kMaxLanes != 0) encode(states[--i % kMaxLanes], table[*--symbol], at);
       for (; i > 0; i -= kMaxLanes) {
-        for (unsigned lane = kMaxLanes; lane-- > 0;) words.encode(states[lane], table[*--symbol]);
+        symbol -= kMaxLanes;
+        for (unsigned lane = kMaxLanes; lane-- > 0;) {
+          encode(states[lane], table[symbol[lane]], at);
+        }
       }
     } else {
-      while (i > 0) words.encode(states[--i % lanes], table[*--symbol]);
+      while (i > 0) encode(states[--i % lanes], table[*--symbol], at);
     }
   }
   Bytes out;
-  out.reserve(std::size_t{4} * lanes + static_cast<std::size_t>(words.end() - words.begin()));
+  out.reserve(std::size_t{4} * lanes + static_cast<std::size_t>(words.end() - at));
   for (unsigned lane = 0; lane < lanes; ++lane) {
     for (unsigned shift = 0; shift < 32; shift += 8) {
       out.push_back(static_cast<std::uint8_t>(states[lane] >> shift));
     }
   }
-  out.insert(out.end(), words.begin(), words.end());
+  out.insert(out.end(), at, words.end());
   return out;
 }
 
@@ -130,12 +136,13 @@ DecodingTable::DecodingTable(const FrequencyTable& frequencies) {
   }
 }
 
-RansReader::RansReader(const std::uint8_t* data, std::size_t size, unsigned lanes)
-    : lanes_(lanes), at_(data + std::size_t{4} * lanes), end_(data + size) {
+RansReader::RansReader(const std::uint8_t* data, std::size_t size, unsigned lanes, bool vector)
+    : lanes_(lanes), vector_(vector), end_(data + size) {
   if (size < std::size_t{4} * lanes) fail();
+  current_.at = data + std::size_t{4} * lanes;
   for (unsigned lane = 0; lane < lanes; ++lane) {
-    states_[lane] = loadLittle32(data + std::size_t{4} * lane);
-    if (states_[lane] < kRansLow || states_[lane] >= (kRansLow << 16)) {
+    current_.states[lane] = loadLittle32(data + std::size_t{4} * lane);
+    if (current_.states[lane] < kRansLow || current_.states[lane] >= (kRansLow << 16)) {
       throw Error(ErrorCode::Corrupt, "an entropy coded stream starts with an impossible state");
     }
   }
@@ -143,27 +150,15 @@ RansReader::RansReader(const std::uint8_t* data, std::size_t size, unsigned lane
 
 unsigned RansReader::fullRun(const DecodingTable& table, std::size_t count, std::uint8_t* symbols) {
   // Copies of the states may live in registers.
-  std::array<std::uint32_t, kMaxLanes> states = states_;
-  const std::uint8_t* at = at_;
+  RansLanes lanes = current_;
   for (std::size_t i = 0; i < count; i += kMaxLanes) {
     for (unsigned lane = 0; lane < kMaxLanes; ++lane) {
-      symbols[i + lane] = static_cast<std::uint8_t>(step(table, states[lane], at));
+      symbols[i + lane] = static_cast<std::uint8_t>(step(table, lanes.states[lane], lanes.at));
     }
   }
-  states_ = states;
-  at_ = at;
+  current_ = lanes;
   std::uint8_t greatest = 0;
   for (std::size_t i = 0; i < count; ++i) greatest = std::max(greatest, symbols[i]);
-  return greatest;
-}
-
-unsigned RansReader::shortRun(const DecodingTable& table, std::size_t count,
-                              std::uint8_t* symbols) {
-  std::uint8_t greatest = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    symbols[i] = static_cast<std::uint8_t>(step(table, states_[i % lanes_], at_));
-    greatest = std::max(greatest, symbols[i]);
-  }
   return greatest;
 }
 
@@ -173,8 +168,8 @@ void RansReader::fail() {
 }
 
 void RansReader::expectEnd() const {
-  bool asAtStart = at_ == end_;
-  for (unsigned lane = 0; lane < lanes_; ++lane) asAtStart &= states_[lane] == kRansLow;
+  bool asAtStart = current_.at == end_;
+  for (unsigned lane = 0; lane < lanes_; ++lane) asAtStart &= current_.states[lane] == kRansLow;
   if (!asAtStart) {
     throw Error(ErrorCode::Corrupt,
                 "an entropy coded stream does not end with its last symbol: the file is damaged");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -8,6 +9,7 @@
 #include "bspc/span.h"
 #include "geometry/fast/frequency_table.h"
 #include "geometry/fast/little_endian.h"
+#include "geometry/fast/rans_vector.h"
 
 namespace bspc::geometry::fast {
 
@@ -30,7 +32,8 @@ class RansWriter {
   /// Appends a run of `count` < 2^24 symbols, to be filled in.
   std::uint8_t* run(unsigned table, std::size_t count);
   void symbol(unsigned table, unsigned symbol) {
-    *run(table, 1) = static_cast<std::uint8_t>(symbol);
+    runs_.push_back(table + (1U << 8));
+    symbols_.push_back(static_cast<std::uint8_t>(symbol));
   }
   bool empty() const { return symbols_.empty(); }
 
@@ -49,6 +52,7 @@ class DecodingTable {
   DecodingTable() = default;
   explicit DecodingTable(const FrequencyTable& frequencies);
   std::uint32_t entry(std::uint32_t state) const { return entries_[state & (kFrequencyTotal - 1)]; }
+  const std::uint32_t* entries() const { return entries_.data(); }
 
   static std::uint32_t symbolOf(std::uint32_t entry) { return entry & 0xFF; }
   static std::uint32_t frequencyOf(std::uint32_t entry) { return (entry >> 8) & 0xFFF; }
@@ -62,19 +66,31 @@ class DecodingTable {
 class RansReader {
  public:
   RansReader() = default;
-  RansReader(const std::uint8_t* data, std::size_t size, unsigned lanes);
+  /// `vector`: eight symbols at once, with the same result.
+  RansReader(const std::uint8_t* data, std::size_t size, unsigned lanes,
+             bool vector = hasVectorRans());
 
-  /// Decodes a run of count ≤ 64 symbols; returns the greatest. Throws Error(Corrupt) past the end.
+  /// Decodes a run of count ≤ 48 symbols; returns the greatest. Throws Error(Corrupt) past the end.
   unsigned run(const DecodingTable& table, std::size_t count, std::uint8_t* symbols) {
-    const unsigned greatest = lanes_ == kMaxLanes && count % kMaxLanes == 0
-                                  ? fullRun(table, count, symbols)
-                                  : shortRun(table, count, symbols);
-    if (at_ > end_) fail();
+    unsigned greatest = 0;
+    std::size_t done = 0;
+    if (lanes_ == kMaxLanes) {
+      done = count / kMaxLanes * kMaxLanes;
+      greatest = vector_ ? vectorRun(table.entries(), done, current_, symbols)
+                         : fullRun(table, done, symbols);
+    }
+    // What is left starts again at the first lane.
+    for (; done < count; ++done) {
+      const unsigned symbol = step(table, current_.states[done & (lanes_ - 1)], current_.at);
+      symbols[done] = static_cast<std::uint8_t>(symbol);
+      greatest = std::max(greatest, symbol);
+    }
+    if (current_.at > end_) fail();
     return greatest;
   }
   unsigned symbol(const DecodingTable& table) {
-    const unsigned symbol = step(table, states_[0], at_);
-    if (at_ > end_) fail();
+    const unsigned symbol = step(table, current_.states[0], current_.at);
+    if (current_.at > end_) fail();
     return symbol;
   }
 
@@ -93,12 +109,11 @@ class RansReader {
     return DecodingTable::symbolOf(entry);
   }
   unsigned fullRun(const DecodingTable& table, std::size_t count, std::uint8_t* symbols);
-  unsigned shortRun(const DecodingTable& table, std::size_t count, std::uint8_t* symbols);
   [[noreturn]] static void fail();
 
-  std::array<std::uint32_t, kMaxLanes> states_{};
-  unsigned lanes_ = 1;
-  const std::uint8_t* at_ = nullptr;
+  RansLanes current_{};
+  unsigned lanes_ = 1;  ///< a power of two
+  bool vector_ = false;
   const std::uint8_t* end_ = nullptr;
 };
 

@@ -43,20 +43,20 @@ SlabOptions presetOf(unsigned effort) {
   return options;
 }
 
-CodedSet slabs(const TileFrame& frame, const std::vector<TilePoint>& points,
-               const SlabOptions& options) {
-  CodedSet body = writeSlabs(frame, points, options);
+CodedSet slabs(const TileFrame& frame, const SetPoints& points, const SlabOptions& options) {
   const unsigned kind =
       options.uvTree ? kTree | (options.extraLevels << kKindBits) : static_cast<unsigned>(kCurve);
-  body.bytes.insert(body.bytes.begin(), static_cast<std::uint8_t>(kind));
-  return body;
+  container::ByteWriter out;
+  out.u8(kind);
+  std::vector<std::uint32_t> order = writeSlabs(frame, points, options, out);
+  return {out.take(), std::move(order)};
 }
 
 /// As a tile of method kd.
-CodedSet counts(const TileFrame& frame, const std::vector<TilePoint>& points) {
+CodedSet counts(const TileFrame& frame, const SetPoints& points) {
   std::vector<GridPoint> positions;
   positions.reserve(points.size());
-  for (const TilePoint& p : points) positions.push_back(p.at);
+  for (std::size_t i = 0; i < points.size(); ++i) positions.push_back(points[i].at);
   TileInput tile;
   tile.points = positions;
   tile.extent = frame.extent;
@@ -69,7 +69,7 @@ CodedSet counts(const TileFrame& frame, const std::vector<TilePoint>& points) {
 
 }  // namespace
 
-CodedSet encodeSet(const TileFrame& frame, const std::vector<TilePoint>& points, unsigned effort) {
+CodedSet encodeSet(const TileFrame& frame, const SetPoints& points, unsigned effort) {
   CodedSet best;
   const auto consider = [&best](CodedSet candidate) {
     if (best.bytes.empty() || candidate.bytes.size() < best.bytes.size()) {

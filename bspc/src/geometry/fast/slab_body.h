@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bspc/span.h"
+#include "container/byte_writer.h"
 #include "geometry/fast/slab_planner.h"
 #include "geometry/fast/surface_fit.h"
 #include "geometry/fast/tile_frame.h"
@@ -24,9 +25,10 @@ struct CodedSet {
   std::vector<std::uint32_t> order;
 };
 
-/// Codes points as slabs (docs/format.md, "Method fast").
-CodedSet writeSlabs(const TileFrame& frame, std::vector<TilePoint> points,
-                    const SlabOptions& options);
+/// Appends points as slabs (docs/format.md, "Method fast"). Returns their indices in the order in
+/// which a decoder returns them.
+std::vector<std::uint32_t> writeSlabs(const TileFrame& frame, const SetPoints& points,
+                                      const SlabOptions& options, container::ByteWriter& out);
 
 /// Decodes `points` points of what writeSlabs() wrote with that kind of (u, v).
 void readSlabs(ByteView body, std::uint64_t points, bool uvTree, unsigned extraLevels,

@@ -29,15 +29,14 @@ std::uint64_t halveRows(std::uint64_t m) {
 
 }  // namespace
 
-void SlabPlanner::plan(std::vector<TilePoint>& points, const Cell& root) {
+void SlabPlanner::plan(const SetPoints& points, const Cell& root) {
   nodes_.clear();
   sortByPath(points, root);
-  points_ = points.data();
   build(root, 0, 0, 0, static_cast<std::uint32_t>(points.size()), true);
 }
 
 /// The axis that is split depends on the depth alone, so a few tables turn coordinates into paths.
-void SlabPlanner::sortByPath(std::vector<TilePoint>& points, const Cell& root) {
+void SlabPlanner::sortByPath(const SetPoints& points, const Cell& root) {
   const unsigned allLevels = root.levels[0] + root.levels[1] + root.levels[2];
   const unsigned wished = entropy::bitLength(points.size() / options_.smallestSlab) + 5;
   sortedDepth_ = std::min({allLevels, wished, kMaxSortedDepth});
@@ -54,27 +53,28 @@ void SlabPlanner::sortByPath(std::vector<TilePoint>& points, const Cell& root) {
     }
     pathBits[axis].swap(finer);
   }
-  starts_.assign((std::size_t{1} << sortedDepth_) + 1, 0);
+  // Counted one place further on, so that the places filled last are the starts.
+  starts_.assign((std::size_t{1} << sortedDepth_) + 2, 0);
   std::vector<std::uint16_t> paths(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
+    const GridPoint at = points[i].at;
     unsigned path = 0;
     for (unsigned k = 0; k < 3; ++k) {
-      path |= pathBits[k][std::uint64_t{points[i].at[k]} >> cell.levels[k]];
+      path |= pathBits[k][std::uint64_t{at[k]} >> cell.levels[k]];
     }
     paths[i] = static_cast<std::uint16_t>(path);
-    ++starts_[path + 1];
+    ++starts_[path + 2];
   }
   for (std::size_t p = 1; p < starts_.size(); ++p) starts_[p] += starts_[p - 1];
-  std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
-  spare_.resize(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) spare_[next[paths[i]]++] = points[i];
-  points.swap(spare_);
+  points_.resize(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) points_[starts_[paths[i] + 1U]++] = points[i];
 }
 
 /// Where the points of the upper half begin.
 std::uint32_t SlabPlanner::split(const Cell& upper, unsigned axis, std::uint32_t path,
                                  unsigned depth, std::uint32_t first, std::uint32_t last) {
   if (depth < sortedDepth_) return starts_[(2 * path + 1) << (sortedDepth_ - depth - 1)];
+  if (spare_.size() < last - first) spare_.resize(last - first);
   std::uint32_t low = first;
   std::uint32_t high = 0;
   for (std::uint32_t i = first; i < last; ++i) {
@@ -85,7 +85,7 @@ std::uint32_t SlabPlanner::split(const Cell& upper, unsigned axis, std::uint32_t
       points_[low++] = p;
     }
   }
-  std::copy(spare_.begin(), spare_.begin() + high, points_ + low);
+  std::copy(spare_.begin(), spare_.begin() + high, points_.begin() + low);
   return low;
 }
 
@@ -127,7 +127,7 @@ std::uint32_t SlabPlanner::build(const Cell& cell, std::uint32_t path, unsigned 
 unsigned SlabPlanner::heightAxis(const PlanNode& node) const {
   const std::uint32_t count = node.last - node.first;
   if (count < 4) return 2;
-  const std::uint32_t step = count >= 128 ? count / 64 : 1;
+  const std::uint32_t step = count >= 64 ? count / 32 : 1;
   float s[3] = {};
   float m[6] = {};
   float n = 0;
@@ -170,7 +170,7 @@ unsigned SlabPlanner::heightAxis(const PlanNode& node) const {
 
 void SlabPlanner::castShadow(PlanNode& node) const {
   const std::uint32_t count = node.last - node.first;
-  const std::uint32_t step = count >= 192 ? count / 96 : 1;
+  const std::uint32_t step = count >= 96 ? count / 48 : 1;
   unsigned shift[3];
   for (unsigned k = 0; k < 3; ++k)
     shift[k] = static_cast<unsigned>(std::max(0, node.cell.levels[k] - 3));
@@ -229,7 +229,8 @@ void SlabPlanner::mergeByShape(PlanNode& node, unsigned axis) {
 float SlabPlanner::cost(PlanNode& node) {
   if (node.cost >= 0) return node.cost;
   if (node.slab) {
-    node.cost = estimate_(node.cell, points_ + node.first, node.last - node.first, node.heightAxis);
+    node.cost =
+        estimate_(node.cell, points_.data() + node.first, node.last - node.first, node.heightAxis);
   } else {
     node.cost = kNodeBits;
     for (const std::uint32_t child : node.child) {
@@ -243,7 +244,8 @@ void SlabPlanner::mergeByCost(PlanNode& node) {
   if (node.slab) return;
   const float apart = cost(node);
   const unsigned height = heightAxis(node);
-  const float together = estimate_(node.cell, points_ + node.first, node.last - node.first, height);
+  const float together =
+      estimate_(node.cell, points_.data() + node.first, node.last - node.first, height);
   if (together >= apart) return;
   node.slab = true;
   node.heightAxis = height;

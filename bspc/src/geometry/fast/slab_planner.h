@@ -6,14 +6,9 @@
 #include <vector>
 
 #include "geometry/fast/cell.h"
+#include "geometry/fast/set_points.h"
 
 namespace bspc::geometry::fast {
-
-/// A point of the encoder, with where it came from.
-struct TilePoint {
-  GridPoint at;
-  std::uint32_t index;
-};
 
 struct PlanOptions {
   std::uint32_t largestSlab = 6000;
@@ -47,15 +42,16 @@ class SlabPlanner {
   SlabPlanner(StepScale scale, PlanOptions options, CostEstimate estimate)
       : scale_(scale), options_(options), estimate_(std::move(estimate)) {}
 
-  /// Reorders `points`, so that every node's are consecutive.
-  void plan(std::vector<TilePoint>& points, const Cell& root);
+  void plan(const SetPoints& points, const Cell& root);
 
   const std::vector<PlanNode>& nodes() const { return nodes_; }  ///< the root is the first
+  /// The points in an order in which every node's are consecutive.
+  const std::vector<TilePoint>& points() const { return points_; }
 
  private:
   static constexpr unsigned kMaxSortedDepth = 14;
 
-  void sortByPath(std::vector<TilePoint>& points, const Cell& root);
+  void sortByPath(const SetPoints& points, const Cell& root);
   std::uint32_t split(const Cell& upper, unsigned axis, std::uint32_t path, unsigned depth,
                       std::uint32_t first, std::uint32_t last);
   std::uint32_t build(const Cell& cell, std::uint32_t path, unsigned depth, std::uint32_t first,
@@ -71,7 +67,7 @@ class SlabPlanner {
   PlanOptions options_;
   CostEstimate estimate_;
   std::vector<PlanNode> nodes_;
-  TilePoint* points_ = nullptr;
+  std::vector<TilePoint> points_;
   std::vector<TilePoint> spare_;
   unsigned sortedDepth_ = 0;
   std::vector<std::uint32_t> starts_;  ///< by path of sortedDepth_ bits

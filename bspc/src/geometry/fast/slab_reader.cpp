@@ -183,21 +183,23 @@ class SlabReader {
 
   void emit(const Cell& cell, const SlabFrame& frame) {
     const std::size_t count = chunk_.count;
-    const std::uint32_t* columns[3] = {chunk_.u.data(), chunk_.v.data(), chunk_.w.data()};
+    const std::array<std::uint32_t*, 3> columns{chunk_.u.data(), chunk_.v.data(), chunk_.w.data()};
     unsigned cutBefore = 0;
     for (unsigned k = 0; k < 3; ++k) {
-      const unsigned axis = frame.axis[k];
       const unsigned cut = frame.cut[k];
-      const std::uint32_t lower = cell.lower[axis];
-      for (std::size_t i = 0; i < count; ++i) points_[i][axis] = lower + (columns[k][i] << cut);
-      if (cut == 0) continue;
+      const std::uint32_t lower = cell.lower[frame.axis[k]];
+      std::uint32_t* column = columns[k];
+      if (cut == 0) {
+        for (std::size_t i = 0; i < count; ++i) column[i] += lower;
+        continue;
+      }
       const std::uint32_t mask = (1U << cut) - 1;
       for (std::size_t i = 0; i < count; ++i) {
-        points_[i][axis] += (chunk_.cutOff[i] >> cutBefore) & mask;
+        column[i] = lower + (column[i] << cut) + ((chunk_.cutOff[i] >> cutBefore) & mask);
       }
       cutBefore += cut;
     }
-    out_.append(points_.data(), count);
+    out_.append(columns, frame.axis, count);
   }
 
   PointCollector& out_;
@@ -207,7 +209,6 @@ class SlabReader {
   std::unique_ptr<entropy::SymbolReader> uvCoder_;
   std::unique_ptr<Tree> uvTree_;
   Chunk chunk_{};
-  std::array<GridPoint, kChunkPoints> points_{};
   std::uint32_t lastHeight_ = 0;
   std::vector<PlanePoint> plane_;
   std::vector<std::uint64_t> codes_;

@@ -22,15 +22,15 @@ const std::vector<std::uint32_t>& CodeSorter::sort(const std::vector<std::uint64
   }
   keys_.resize(n);
   for (std::size_t i = 0; i < n; ++i) keys_[i] = (codes[i] << indexBits) | i;
-  sortKeys(indexBits, indexBits + bits);
+  sorter_.sort(keys_, indexBits, indexBits + bits);
   const std::uint64_t mask = (std::uint64_t{1} << indexBits) - 1;
   for (std::size_t j = 0; j < n; ++j) order_[j] = static_cast<std::uint32_t>(keys_[j] & mask);
   return order_;
 }
 
-void CodeSorter::sortKeys(unsigned fromBit, unsigned toBit) {
+void BitSorter::sort(std::vector<std::uint64_t>& keys, unsigned fromBit, unsigned toBit) {
   constexpr unsigned kMaxDigit = 10;
-  const std::size_t n = keys_.size();
+  const std::size_t n = keys.size();
   const unsigned most = n < 400 ? 7 : n < 1500 ? 9 : kMaxDigit;
   const unsigned bits = toBit - fromBit;
   if (bits == 0) return;
@@ -41,52 +41,50 @@ void CodeSorter::sortKeys(unsigned fromBit, unsigned toBit) {
   for (unsigned shift = fromBit; shift < toBit; shift += digit) {
     const std::uint64_t mask = (std::uint64_t{1} << std::min(digit, toBit - shift)) - 1;
     std::fill(starts.begin(), starts.begin() + static_cast<std::ptrdiff_t>(mask) + 1, 0U);
-    for (const std::uint64_t key : keys_) ++starts[(key >> shift) & mask];
+    for (const std::uint64_t key : keys) ++starts[(key >> shift) & mask];
     std::uint32_t start = 0;
     for (std::size_t d = 0; d <= mask; ++d) {
       const std::uint32_t count = starts[d];
       starts[d] = start;
       start += count;
     }
-    for (const std::uint64_t key : keys_) spare_[starts[(key >> shift) & mask]++] = key;
-    keys_.swap(spare_);
+    for (const std::uint64_t key : keys) spare_[starts[(key >> shift) & mask]++] = key;
+    keys.swap(spare_);
   }
 }
 
-void SlabSorter::sort(const Cell& cell, const StepScale& scale, const TilePoint* points,
-                      std::uint32_t count, unsigned heightAxis, SortedSlab& slab) {
+void SortedSlab::sort(const Cell& cell, const StepScale& scale, const TilePoint* points,
+                      std::uint32_t count, unsigned heightAxis) {
   const HilbertPlane& curve = HilbertPlane::instance();
-  const SlabFrame frame(cell, scale, heightAxis, count);
-  slab.frame = frame;
-  const unsigned au = frame.axis[0];
-  const unsigned av = frame.axis[1];
-  const unsigned aw = frame.axis[2];
-  codes_.resize(count);
+  frame_ = SlabFrame(cell, scale, heightAxis, count);
+  for (unsigned k = 0; k < 3; ++k) lower_[k] = cell.lower[frame_.axis[k]];
+  points_ = points;
+  // Larger slabs than an encoder makes have a single position, and so no bits of code: both fit.
+  indexBits_ = count > 0 ? entropy::bitLength(count - 1) : 0;
+  indexMask_ = (std::uint64_t{1} << indexBits_) - 1;
+  keys_.resize(count);
+  const SlabFrame frame = frame_;  // copies live in registers
+  const unsigned indexBits = indexBits_;
+  const std::uint32_t lowerU = lower_[0];
+  const std::uint32_t lowerV = lower_[1];
   for (std::uint32_t i = 0; i < count; ++i) {
-    codes_[i] = codeOf(curve, frame, (points[i].at[au] - cell.lower[au]) >> frame.cut[0],
-                       (points[i].at[av] - cell.lower[av]) >> frame.cut[1]);
+    const std::uint64_t code =
+        codeOf(curve, frame, (points[i].at[frame.axis[0]] - lowerU) >> frame.cut[0],
+               (points[i].at[frame.axis[1]] - lowerV) >> frame.cut[1]);
+    keys_[i] = (code << indexBits) | i;
   }
-  const std::vector<std::uint32_t>& order = sorter_.sort(codes_, frame.codeBits());
-  for (auto* column : {&slab.u, &slab.v, &slab.w, &slab.index}) column->resize(count);
-  slab.codes.resize(count);
-  const unsigned cutBits = frame.cutBits();
-  slab.cutOff.resize(cutBits > 0 ? count : 0);
-  for (std::uint32_t j = 0; j < count; ++j) {
-    const TilePoint& p = points[order[j]];
-    const std::uint32_t u = p.at[au] - cell.lower[au];
-    const std::uint32_t v = p.at[av] - cell.lower[av];
-    const std::uint32_t w = p.at[aw] - cell.lower[aw];
-    slab.codes[j] = codes_[order[j]];
-    slab.u[j] = u >> frame.cut[0];
-    slab.v[j] = v >> frame.cut[1];
-    slab.w[j] = w >> frame.cut[2];
-    slab.index[j] = p.index;
-    if (cutBits > 0) {
-      const auto low = [](std::uint32_t c, unsigned bits) { return c & ((1U << bits) - 1); };
-      slab.cutOff[j] = low(u, frame.cut[0]) | (low(v, frame.cut[1]) << frame.cut[0]) |
-                       (low(w, frame.cut[2]) << (frame.cut[0] + frame.cut[1]));
-    }
+  sorter_.sort(keys_, indexBits_, indexBits_ + frame.codeBits());
+}
+
+std::uint32_t SortedSlab::cutOff(const TilePoint& p) const {
+  std::uint32_t bits = 0;
+  unsigned before = 0;
+  for (unsigned k = 0; k < 3; ++k) {
+    const std::uint32_t all = p.at[frame_.axis[k]] - lower_[k];
+    bits |= (all & ((1U << frame_.cut[k]) - 1)) << before;
+    before += frame_.cut[k];
   }
+  return bits;
 }
 
 }  // namespace bspc::geometry::fast

@@ -17,24 +17,31 @@ namespace {
 /// Estimates look at every so many-th chunk of a large slab.
 constexpr std::size_t kEstimateStep = 4;
 constexpr float kSlabBits = 24;
+constexpr std::size_t kSizesBytes = 64;  ///< more than the sizes of all sections take
 
 SurfaceHistory startOf(const SlabFrame& frame) {
   const auto middle = [&frame](unsigned k) { return (std::uint32_t{1} << frame.levels[k]) / 2; };
   return SurfaceHistory(middle(0), middle(1), middle(2));
 }
 
-/// The chunk of a slab that begins at point `first`.
-void loadChunk(const SortedSlab& slab, std::size_t first, Chunk& chunk) {
-  chunk.count = std::min(kChunkPoints, slab.size() - first);
-  std::uint64_t before = first > 0 ? slab.codes[first - 1] : 0;
-  for (std::size_t i = 0; i < chunk.count; ++i) {
-    chunk.gaps[i] = slab.codes[first + i] - before;
-    before = slab.codes[first + i];
+/// The chunk of a slab that begins at point `first`; where its points came from goes to `order`,
+/// unless that is null.
+void loadChunk(const SortedSlab& slab, std::size_t first, Chunk& chunk, std::uint32_t* order) {
+  const std::size_t count = std::min(kChunkPoints, slab.size() - first);
+  chunk.count = count;
+  std::uint64_t before = first > 0 ? slab.code(first - 1) : 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint64_t code = slab.code(first + i);
+    chunk.gaps[i] = code - before;
+    before = code;
+    const TilePoint& p = slab.point(first + i);
+    chunk.u[i] = slab.coordinate(p, 0);
+    chunk.v[i] = slab.coordinate(p, 1);
+    chunk.w[i] = slab.coordinate(p, 2);
+    if (order != nullptr) order[i] = p.index;
   }
-  std::copy_n(&slab.u[first], chunk.count, chunk.u.begin());
-  std::copy_n(&slab.v[first], chunk.count, chunk.v.begin());
-  std::copy_n(&slab.w[first], chunk.count, chunk.w.begin());
-  if (!slab.cutOff.empty()) std::copy_n(&slab.cutOff[first], chunk.count, chunk.cutOff.begin());
+  if (slab.frame().cutBits() == 0) return;
+  for (std::size_t i = 0; i < count; ++i) chunk.cutOff[i] = slab.cutOff(slab.point(first + i));
 }
 
 void remember(const Chunk& chunk, SurfaceHistory& history) {
@@ -73,14 +80,13 @@ class PlannedSlabs {
 class SlabWriter {
  public:
   SlabWriter(const TileFrame& frame, const SlabOptions& options, std::size_t points)
-      : frame_(frame), options_(options), chunks_(out_) {
-    order_.reserve(points);
+      : frame_(frame), options_(options), out_(points), chunks_(out_), order_(points) {
     if (options.uvTree) {
       uvTree_ = std::make_unique<Tree>(uvCoder_, out_.raw, options.extraLevels);
     }
   }
 
-  CodedSet write(std::vector<TilePoint> points) {
+  std::vector<std::uint32_t> write(const SetPoints& points, container::ByteWriter& out) {
     SlabPlanner planner(frame_.scale, options_.plan,
                         [this](const Cell& cell, const TilePoint* p, std::uint32_t n,
                                unsigned axis) { return estimate(cell, p, n, axis); });
@@ -90,9 +96,11 @@ class SlabWriter {
     codeSlabTree(tree, slabs, 0, rootCell(frame_.extent), points.size(), frame_.scale);
     for (const std::uint32_t id : slabs.order()) {
       const PlanNode& node = planner.nodes()[id];
-      writeSlab(node.cell, points.data() + node.first, node.last - node.first, node.heightAxis);
+      writeSlab(node.cell, planner.points().data() + node.first, node.last - node.first,
+                node.heightAxis);
     }
-    return {assemble(tree.finish(), points.size()), std::move(order_)};
+    assemble(tree.finish(), points.size(), out);
+    return std::move(order_);
   }
 
  private:
@@ -100,15 +108,15 @@ class SlabWriter {
 
   float estimate(const Cell& cell, const TilePoint* points, std::uint32_t count,
                  unsigned heightAxis) {
-    sorter_.sort(cell, frame_.scale, points, count, heightAxis, slab_);
-    SurfaceHistory history = startOf(slab_.frame);
+    slab_.sort(cell, frame_.scale, points, count, heightAxis);
+    SurfaceHistory history = startOf(slab_.frame());
     const std::size_t step = kChunkPoints * (count > 3 * kChunkPoints ? kEstimateStep : 1);
     float bits = 0;
     std::size_t seen = 0;
-    std::uint32_t lastHeight = (std::uint32_t{1} << slab_.frame.levels[2]) / 2;
+    std::uint32_t lastHeight = (std::uint32_t{1} << slab_.frame().levels[2]) / 2;
     for (std::size_t first = 0; first < count; first += step) {
-      if (first > 0) lastHeight = slab_.w[first - 1];
-      loadChunk(slab_, first, chunk_);
+      if (first > 0) lastHeight = slab_.coordinate(slab_.point(first - 1), 2);
+      loadChunk(slab_, first, chunk_, nullptr);
       bits += chooseGapClass(chunk_) + fitSurface(chunk_, history, lastHeight, options_.fit);
       seen += chunk_.count;
       remember(chunk_, history);
@@ -118,18 +126,21 @@ class SlabWriter {
 
   void writeSlab(const Cell& cell, const TilePoint* points, std::uint32_t count,
                  unsigned heightAxis) {
-    sorter_.sort(cell, frame_.scale, points, count, heightAxis, slab_);
-    order_.insert(order_.end(), slab_.index.begin(), slab_.index.end());
-    const SlabFrame& frame = slab_.frame;
+    slab_.sort(cell, frame_.scale, points, count, heightAxis);
+    const SlabFrame& frame = slab_.frame();
     if (options_.uvTree && frame.levels[0] + frame.levels[1] > 0) {
       plane_.resize(count);
-      for (std::uint32_t i = 0; i < count; ++i) plane_[i] = {{slab_.u[i], slab_.v[i]}};
+      for (std::uint32_t i = 0; i < count; ++i) {
+        const TilePoint& p = slab_.point(i);
+        plane_[i] = {{slab_.coordinate(p, 0), slab_.coordinate(p, 1)}};
+      }
       uvTree_->code(frame, frame_.scale, plane_);
     }
     SurfaceHistory history = startOf(frame);
     std::uint32_t lastHeight = (std::uint32_t{1} << frame.levels[2]) / 2;
     for (std::size_t first = 0; first < count; first += kChunkPoints) {
-      loadChunk(slab_, first, chunk_);
+      loadChunk(slab_, first, chunk_, order_.data() + written_);
+      written_ += chunk_.count;
       if (!options_.uvTree) {
         chooseGapClass(chunk_);
         chunks_.codeGaps(chunk_);
@@ -143,7 +154,7 @@ class SlabWriter {
     }
   }
 
-  Bytes assemble(const Bytes& tree, std::size_t points) {
+  void assemble(const Bytes& tree, std::size_t points, container::ByteWriter& body) {
     const unsigned lanes = ransLanes(points);
     BitWriter tables;
     const auto code = [&tables](const RansWriter& stream, const DefaultTables& defaults,
@@ -157,15 +168,16 @@ class SlabWriter {
         code(out_.residuals, defaultResidualTables(), kResidualClasses.tables(), lanes);
     const Bytes fields = code(out_.fields, defaultFieldTables(), kFields, 1);
     const Bytes head = tables.finish();
-    container::ByteWriter body;
+    const Bytes raw = out_.raw.finish();
+    body.reserve(head.size() + tree.size() + gaps.size() + residuals.size() + fields.size() +
+                 raw.size() + kSizesBytes);
     for (const Bytes* section : {&head, &tree, &gaps, &residuals, &fields}) {
       body.varint(section->size());
     }
     for (const Bytes* section : {&head, &tree, &gaps, &residuals, &fields}) {
       body.bytes(*section);
     }
-    body.bytes(out_.raw.finish());
-    return body.take();
+    body.bytes(raw);
   }
 
   const TileFrame& frame_;
@@ -174,19 +186,19 @@ class SlabWriter {
   ChunkCoder<ChunkWriter> chunks_;
   entropy::SymbolWriter uvCoder_;
   std::unique_ptr<Tree> uvTree_;
-  SlabSorter sorter_;
   SortedSlab slab_;
   Chunk chunk_{};
   std::vector<PlanePoint> plane_;
   std::vector<std::uint32_t> order_;
+  std::size_t written_ = 0;
 };
 
 }  // namespace
 
-CodedSet writeSlabs(const TileFrame& frame, std::vector<TilePoint> points,
-                    const SlabOptions& options) {
+std::vector<std::uint32_t> writeSlabs(const TileFrame& frame, const SetPoints& points,
+                                      const SlabOptions& options, container::ByteWriter& out) {
   const auto writer = std::make_unique<SlabWriter>(frame, options, points.size());
-  return writer->write(std::move(points));
+  return writer->write(points, out);
 }
 
 }  // namespace bspc::geometry::fast

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "bspc/error.h"
@@ -28,28 +31,41 @@ class PointCollector {
 
   /// Throws Error(Corrupt) if a point lies outside of the tile.
   void append(const GridPoint* points, std::size_t count) {
-    if (count == 0) return;
     std::uint32_t outside = 0;
     for (unsigned k = 0; k < 3; ++k) {
       for (std::size_t i = 0; i < count; ++i) outside |= points[i][k] > frame_.extent[k] ? 1 : 0;
     }
-    if (outside != 0) {
-      throw Error(ErrorCode::Corrupt, "a point lies outside of its tile: the file is damaged");
-    }
-    const std::size_t first = out_.points.size();
-    budget_.beforeAppend(out_, count);
-    out_.points.insert(out_.points.end(), points, points + count);
+    if (outside != 0) failOutside();
+    GridPoint* to = grow(count);
+    std::copy(points, points + count, to);
     for (unsigned k = 0; k < 3; ++k) {
       const std::vector<std::uint32_t>& values = frame_.values[k];
       if (values.empty()) continue;
-      for (std::size_t i = 0; i < count; ++i) {
-        std::uint32_t& c = out_.points[first + i][k];
-        c = values[c];
-      }
+      for (std::size_t i = 0; i < count; ++i) to[i][k] = values[to[i][k]];
     }
-    if (progress_ && first / kProgressStep != out_.points.size() / kProgressStep) {
-      progress_(out_.points.size());
+    report(count);
+  }
+
+  /// The same of points whose coordinates stand in a column each, in the order of `axis`; the
+  /// columns are changed.
+  void append(const std::array<std::uint32_t*, 3>& columns, const unsigned (&axis)[3],
+              std::size_t count) {
+    std::array<const std::uint32_t*, 3> xyz{};
+    std::uint32_t outside = 0;
+    for (unsigned k = 0; k < 3; ++k) {
+      const std::uint32_t extent = frame_.extent[axis[k]];
+      xyz[axis[k]] = columns[k];
+      for (std::size_t i = 0; i < count; ++i) outside |= columns[k][i] > extent ? 1 : 0;
     }
+    if (outside != 0) failOutside();
+    for (unsigned k = 0; k < 3; ++k) {
+      const std::vector<std::uint32_t>& values = frame_.values[axis[k]];
+      if (values.empty()) continue;
+      for (std::size_t i = 0; i < count; ++i) columns[k][i] = values[columns[k][i]];
+    }
+    GridPoint* to = grow(count);
+    for (std::size_t i = 0; i < count; ++i) to[i] = {xyz[0][i], xyz[1][i], xyz[2][i]};
+    report(count);
   }
 
   const TileFrame& frame() const { return frame_; }
@@ -57,6 +73,20 @@ class PointCollector {
 
  private:
   static constexpr std::size_t kProgressStep = std::size_t{1} << 16;
+
+  [[noreturn]] static void failOutside() {
+    throw Error(ErrorCode::Corrupt, "a point lies outside of its tile: the file is damaged");
+  }
+  GridPoint* grow(std::size_t count) {
+    const std::size_t first = out_.points.size();
+    budget_.beforeAppend(out_, count);
+    out_.points.resize(first + count);
+    return out_.points.data() + first;
+  }
+  void report(std::size_t count) const {
+    const std::size_t now = out_.points.size();
+    if (progress_ && (now - count) / kProgressStep != now / kProgressStep) progress_(now);
+  }
 
   const TileFrame& frame_;
   const OutputBudget& budget_;

@@ -29,28 +29,24 @@ StepScale scaleOf(const double (&step)[3]) {
 
 }  // namespace
 
-RankedPoints rankPoints(const TileInput& tile) {
-  RankedPoints ranked;
-  TileFrame& frame = ranked.header.frame;
-  if (tile.layers > 1) ranked.header.ratioBits = kUsualRatioBits;
+RankedPoints::RankedPoints(const TileInput& tile) : points_(tile.points), lower_(tile.lower) {
+  TileFrame& frame = header_.frame;
+  if (tile.layers > 1) header_.ratioBits = kUsualRatioBits;
   double regularStep[3] = {1, 1, 1};
   double meanStep[3] = {1, 1, 1};
   for (unsigned k = 0; k < 3; ++k) {
-    std::vector<std::uint32_t>& c = ranked.coordinates[k];
-    c.resize(tile.points.size());
-    for (std::size_t i = 0; i < c.size(); ++i) c[i] = tile.points[i][k] - tile.lower[k];
+    const AxisColumn column(points_, k, lower_[k]);
     frame.extent[k] = tile.extent[k];
-    frame.values[k] = valuesWorthRanking(c, tile.extent[k]);
+    frame.values[k] = valuesWorthRanking(column, tile.extent[k]);
     if (frame.values[k].empty()) continue;
-    c = ranksOf(c, frame.values[k]);
+    ranks_[k] = AxisRanks(column, frame.values[k]);
     frame.extent[k] = static_cast<std::uint32_t>(frame.values[k].size() - 1);
     meanStep[k] =
         (static_cast<double>(tile.extent[k]) + 1) / static_cast<double>(frame.values[k].size());
     if (isRegular(frame.values[k])) regularStep[k] = meanStep[k];
   }
   frame.scale = scaleOf(regularStep);
-  ranked.otherScale = scaleOf(meanStep);
-  return ranked;
+  otherScale_ = scaleOf(meanStep);
 }
 
 void writeHeader(container::ByteWriter& out, const TileHeader& header, unsigned layers) {

@@ -17,14 +17,29 @@ struct TileHeader {
   TileFrame frame;
 };
 
-/// The tile's points relative to its corner, by axis, replaced by ranks where that pays.
-struct RankedPoints {
-  TileHeader header;
-  std::vector<std::uint32_t> coordinates[3];
+/// The points of a tile relative to its corner, replaced by ranks along the axes where that pays.
+/// Computed anew whenever they are asked for, so that they take no memory.
+class RankedPoints {
+ public:
+  explicit RankedPoints(const TileInput& tile);
+
+  std::size_t size() const { return points_.size(); }
+  GridPoint operator[](std::size_t i) const {
+    const GridPoint& p = points_[i];
+    return {ranks_[0].rank(p[0] - lower_[0], i), ranks_[1].rank(p[1] - lower_[1], i),
+            ranks_[2].rank(p[2] - lower_[2], i)};
+  }
+  const TileHeader& header() const { return header_; }
   /// Another guess at the scale: from all axes with ranks, whether their steps are regular or not.
-  StepScale otherScale{};
+  const StepScale& otherScale() const { return otherScale_; }
+
+ private:
+  Span<const GridPoint> points_;
+  GridPoint lower_;
+  std::array<AxisRanks, 3> ranks_;
+  TileHeader header_;
+  StepScale otherScale_{};
 };
-RankedPoints rankPoints(const TileInput& tile);
 
 void writeHeader(container::ByteWriter& out, const TileHeader& header, unsigned layers);
 /// Throws Error(Corrupt).
