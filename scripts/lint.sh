@@ -45,7 +45,7 @@ check() {
 files=$(own_files)
 
 formatting() {
-  grep -E '\.(h|cpp)$' <<<"$files" | xargs -d '\n' clang-format --dry-run -Werror
+  grep -E '\.(h|cpp|cxx)$' <<<"$files" | xargs -d '\n' clang-format --dry-run -Werror
 }
 
 # Succeeds if none of the files named on standard input matches.

@@ -66,6 +66,8 @@ struct GridRequest {
   unsigned bits = 0;     ///< 1 … 32
   double precision = 0;  ///< finite, > 0
   Grid reuse;
+  /// Reuse only: the bases stay where they are, and points that lie below are Error(OutOfGrid).
+  bool keepBase = false;
   /// Automatic only: a lattice that the coordinates are said to lie on, such as the scale and
   /// offset of a file that holds integers. Its bases count for nothing. It is taken if it restores
   /// every coordinate exactly and the search finds no coarser lattice that does.

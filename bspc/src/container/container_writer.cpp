@@ -23,7 +23,8 @@ class CountedSink {
   std::uint64_t written_ = 0;
 };
 
-/// Signature, version and head block.
+}  // namespace
+
 Bytes fileStart(const FileHead& head) {
   Bytes start(kSignature.begin(), kSignature.end());
   start.push_back(kVersionMajor);
@@ -33,7 +34,14 @@ Bytes fileStart(const FileHead& head) {
   return start;
 }
 
-}  // namespace
+Bytes fileEnd(ByteView table, std::uint64_t indexOffset) {
+  Bytes bytes = makeBlock(BlockType::Index, table);
+  ByteWriter end;
+  end.unsignedLittle(indexOffset, kEndContent);
+  const Bytes block = makeBlock(BlockType::End, end.data());
+  bytes.insert(bytes.end(), block.begin(), block.end());
+  return bytes;
+}
 
 std::uint64_t writeProgressive(ByteSink& sink, const FileHead& head, const ChunkSource& chunks,
                                const MeshSource& mesh) {
@@ -85,13 +93,9 @@ void ContainerWriter::finish(const MeshSource& mesh) {
     for (std::size_t block = 0; block < head_.mesh.blocks; ++block) {
       put(makeBlock(BlockType::Mesh, mesh(block)));
     }
-    const std::uint64_t indexOffset = written_;
-    ByteWriter index;
-    writeTileTable(index, layout_, tiles_);
-    put(makeBlock(BlockType::Index, index.data()));
-    ByteWriter end;
-    end.unsignedLittle(indexOffset, kEndContent);
-    put(makeBlock(BlockType::End, end.data()));
+    ByteWriter table;
+    writeTileTable(table, layout_, tiles_);
+    put(fileEnd(table.data(), written_));
     return;
   }
   head_.tiles = std::move(tiles_);

@@ -16,6 +16,12 @@ using ChunkSource = std::function<Bytes(std::size_t tile, std::size_t column)>;
 /// Gives the content of a Mesh block by its number.
 using MeshSource = std::function<Bytes(std::size_t block)>;
 
+/// How a file begins: signature, version and head block.
+Bytes fileStart(const FileHead& head);
+/// How a file in the streaming layout ends: the index block with a tile table, and the end block
+/// that leads to it.
+Bytes fileEnd(ByteView table, std::uint64_t indexOffset);
+
 /// Writes a whole file in the progressive layout; head.tiles has the sizes of all chunks. Asks for
 /// each chunk that there is, column by column, and then for head.mesh.blocks Mesh blocks. Returns
 /// the bytes written.

@@ -352,12 +352,36 @@ void quantiseInto(GridFit& fit, bool exact, const Coordinates& coordinates, cons
   fit.exact = fit.maxError[0] == 0 && fit.maxError[1] == 0 && fit.maxError[2] == 0;
 }
 
+/// Throws Error(OutOfGrid) if points lie below the bases or too far above them.
+void requireAboveBases(const Grid& grid, const Ranges& ranges) {
+  Grid own = grid;
+  placeBases(own, ranges);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::int64_t base = grid.axes[axis].base;
+    if (own.axes[axis].base < base) {
+      throw Error(ErrorCode::OutOfGrid, std::string("the coordinate ") + "xyz"[axis] + " = " +
+                                            text(ranges[axis].min) +
+                                            " lies below the grid that is to be kept as it is");
+    }
+    const double top = AxisMap(grid, axis).snap(ranges[axis].max).multiple;
+    if (top - static_cast<double>(base) > kMaxIndex) {
+      throw Error(ErrorCode::OutOfGrid, std::string("the coordinate ") + "xyz"[axis] + " = " +
+                                            text(ranges[axis].max) +
+                                            " lies above the grid that is to be kept as it is");
+    }
+  }
+}
+
 }  // namespace
 
 PlacedGrid placedGrid(const Coordinates& coordinates, const Ranges& ranges,
                       const GridRequest& request) {
   PlacedGrid placed = chooseGrid(coordinates, ranges, request);
-  placeBases(placed.grid, ranges);
+  if (request.kind == GridRequest::Kind::Reuse && request.keepBase) {
+    requireAboveBases(placed.grid, ranges);
+  } else {
+    placeBases(placed.grid, ranges);
+  }
   return placed;
 }
 
