@@ -30,7 +30,7 @@ namespace bspc {
 namespace {
 
 constexpr unsigned kBits = 12;
-constexpr unsigned kMostEffort = 4;
+constexpr unsigned kMostEffort = 9;
 
 struct Model {
   std::vector<float> xyz;
