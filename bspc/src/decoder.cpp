@@ -210,7 +210,7 @@ void Decoder::Impl::decodeQuery(const Query& query, const DecodeOptions& options
 
 DecodedPoints Decoder::Impl::decode(const DecodeOptions& options) {
   const Query query = planQuery(file_, options);
-  DecodedTiles all(limits_);
+  DecodedTiles all(limits_, query.points);
   decodeQuery(
       query, options, [&all] { return all.bytes(); },
       [&all](DecodedPoints&& points) { all.append(std::move(points)); });
