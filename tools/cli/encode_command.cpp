@@ -18,6 +18,8 @@
 #include "cli/scratch_file.h"
 #include "cli/text.h"
 #include "cli/usage_error.h"
+#include "formats/array_tuples.h"
+#include "formats/wording.h"
 
 namespace bspc::cli {
 
@@ -39,7 +41,10 @@ struct EncodeArguments {
   double memory = 1;
   std::uint64_t stopPoints = 0;
   std::optional<unsigned> stopLevel;
-  bool positionsOnly = false;
+  ContentArguments content;
+  bool keepOrder = false;
+  bool anyOrder = false;
+  bool originalIds = false;
   bool dropNonFinite = false;
   bool force = false;
   bool quiet = false;
@@ -63,18 +68,32 @@ GridRequest gridRequest(const EncodeArguments& args) {
   return request;
 }
 
+void checkEffort(const EncodeArguments& args) {
+  if (!args.effort || args.method.empty()) return;
+  const bool fast = args.method == methodName(Method::Fast);
+  if (!fast && args.method != methodName(Method::Predictive)) {
+    throw UsageError("method " + args.method + " has no --effort; leave one of the two out");
+  }
+  if (fast != (*args.effort <= 4)) {
+    throw UsageError("--effort " + std::to_string(*args.effort) + " is not one of method " +
+                     args.method + ": 1 to 4 are method fast, 5 to 9 method predictive");
+  }
+}
+
 EncodeOptions encodeOptions(const EncodeArguments& args) {
+  if (args.keepOrder && args.anyOrder) {
+    throw UsageError("--keep-order and --any-order exclude each other");
+  }
   EncodeOptions options;
   options.grid = gridRequest(args);
   options.effort = args.effort;
-  if (args.effort && !args.method.empty() && args.method != methodName(Method::Fast)) {
-    throw UsageError("method " + args.method + " has no --effort; leave one of the two out");
-  }
+  checkEffort(args);
   options.layers = args.layers;
   options.tilePoints = args.tilePoints;
   options.threads = args.threads;
   options.stopPoints = args.stopPoints;
   options.stopLevel = args.stopLevel;
+  options.originalIds = args.originalIds;
   if (!args.method.empty()) options.method = methodFromName(args.method);
   // To a pipe the index goes last, so that a reader of the pipe sees tiles as they come.
   const std::string layout =
@@ -83,12 +102,45 @@ EncodeOptions encodeOptions(const EncodeArguments& args) {
   return options;
 }
 
+/// Rows of an organised cloud are only rows in their order.
+bool keepsOrder(const EncodeArguments& args, const formats::ModelInfo& info) {
+  if (args.keepOrder || args.anyOrder) return args.keepOrder;
+  return info.isOrganised && !args.content.positionsOnly && !args.dropNonFinite;
+}
+
+std::string bitsText(std::uint64_t bytes, std::uint64_t points) {
+  return fixed(8.0 * static_cast<double>(bytes) / static_cast<double>(points), 3);
+}
+
+/// " (12.1 positions, 5.2 in 3 arrays, 2.9 order)", if there is more than positions.
+std::string sharesText(const EncodeReport& report) {
+  if (report.arrays.empty() && report.orderBytes == 0) return "";
+  std::string text = " (" + bitsText(report.geometryBytes, report.points) + " positions";
+  std::uint64_t arrayBytes = 0;
+  for (const ArrayReport& array : report.arrays) arrayBytes += array.bytes;
+  if (!report.arrays.empty()) {
+    text += ", " + bitsText(arrayBytes, report.points) + " in " +
+            formats::counted(report.arrays.size(), "array", "arrays");
+  }
+  if (report.orderBytes > 0) text += ", " + bitsText(report.orderBytes, report.points) + " order";
+  return text + ")";
+}
+
+std::string arrayErrorsText(const EncodeReport& report) {
+  std::string text;
+  for (const ArrayReport& array : report.arrays) {
+    if (array.greatestError == 0) continue;
+    text += "; " + oneLine(array.name, 40) + " within " + rounded(array.greatestError);
+  }
+  return text;
+}
+
 void printReport(const EncodeArguments& args, const std::string& name, const EncodeReport& report) {
-  const auto bits = 8.0 * static_cast<double>(report.fileBytes);
   std::cerr << name << ": " << withCommas(report.points) << " points in "
             << withCommas(report.fileBytes) << " bytes";
   if (report.points > 0) {
-    std::cerr << ", " << fixed(bits / static_cast<double>(report.points), 3) << " bits per point";
+    std::cerr << ", " << bitsText(report.fileBytes, report.points) << " bits per point"
+              << sharesText(report);
   }
   std::error_code error;
   const std::uintmax_t inputBytes =
@@ -98,8 +150,8 @@ void printReport(const EncodeArguments& args, const std::string& name, const Enc
               << fixed(static_cast<double>(inputBytes) / static_cast<double>(report.fileBytes), 2)
               << " of " << args.input;
   }
-  std::cerr << "; " << errorText(report.exact, report.maxError) << "; " << methodName(report.method)
-            << ", " << gridText(report.grid);
+  std::cerr << "; " << errorText(report.exact, report.maxError) << arrayErrorsText(report) << "; "
+            << methodName(report.method) << ", " << gridText(report.grid);
   const bool wanted = args.layout == "streaming" || args.output == "-";
   if (report.layout == Layout::Streaming && !wanted) {
     std::cerr << "; streaming layout, for it takes more than --memory " << args.memory;
@@ -108,6 +160,23 @@ void printReport(const EncodeArguments& args, const std::string& name, const Enc
     std::cerr << "; " << withCommas(report.dropped) << " non-finite points left out";
   }
   std::cerr << '\n';
+}
+
+/// Reads the points with their arrays and encodes them at once: streams cannot carry arrays yet.
+EncodeReport encodeWhole(ModelPoints& points, ByteSink& sink, const EncodeOptions& options) {
+  constexpr std::size_t kBlock = std::size_t{1} << 16;
+  const std::size_t pointBytes = 3 * scalarSize(points.type());
+  std::vector<std::uint8_t> positions;
+  std::vector<ArrayValues> values = formats::emptyArrays(points.arrays());
+  for (std::size_t got = kBlock; got > 0;) {
+    const std::size_t size = positions.size();
+    positions.resize(size + kBlock * pointBytes);
+    got = points.read(positions.data() + size, values, kBlock);
+    positions.resize(size + got * pointBytes);
+  }
+  PointSetView view(positions.data(), points.type(), positions.size() / pointBytes, 0);
+  for (const ArrayValues& array : values) view.addArray(array.view());
+  return encode(view, sink, options);
 }
 
 void runEncode(const EncodeArguments& args) {
@@ -121,14 +190,19 @@ void runEncode(const EncodeArguments& args) {
   {
     ProgressBar reading("reading", args.quiet);
     ProgressBar encoding("encoding", args.quiet);
-    ModelPoints points(args.input, args.from, args.positionsOnly, reading.callback());
+    ModelPoints points(args.input, args.from, args.content, reading.callback());
     options.encoding.grid.knownLattice = points.info().lattice;
+    options.encoding.metadata = points.metadata();
+    options.encoding.keepOrder = keepsOrder(args, points.info());
     options.encoding.progress = [&, draw = encoding.callback()](double share) {
       if (!points.ended()) return !interrupted();
       reading.clear();
       return draw(share);
     };
-    report = naming(args.input, [&] { return encodeStream(points, sink, options); });
+    report = naming(args.input, [&] {
+      return points.arrays().empty() ? encodeStream(points, sink, options)
+                                     : encodeWhole(points, sink, options.encoding);
+    });
     output.commit();
   }
   if (!args.quiet) printReport(args, output.name(), report);
@@ -140,6 +214,52 @@ std::string knownMethods() {
     names += (names.empty() ? "" : ", ") + std::string(methodName(method));
   }
   return names;
+}
+
+void addContentOptions(CLI::App& command, EncodeArguments& args) {
+  constexpr auto kGroup = "Content";
+  ContentArguments& content = args.content;
+  command
+      .add_option("--arrays", content.arrays.arrays, "Keep these arrays only; `info` lists names")
+      ->option_text("NAME,...")
+      ->group(kGroup);
+  command.add_option("--no-array", content.arrays.without, "Leave out an array (may be repeated)")
+      ->option_text("NAME")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group(kGroup);
+  command
+      .add_option("--array-precision", content.arrays.precisions,
+                  "Let values of a floating-point array differ by at most\n"
+                  "TOL, normals by TOL degrees (may be repeated)")
+      ->option_text("NAME=TOL")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group(kGroup);
+  command
+      .add_flag("--positions-only", content.positionsOnly, "Leave out everything but the positions")
+      ->group(kGroup);
+  command.add_flag("--no-faces", content.noFaces, "Leave out faces and edges")->group(kGroup);
+  command
+      .add_flag("--drop-other", content.dropOther,
+                "Leave out whatever a .bspc file cannot hold, such as faces and lists")
+      ->group(kGroup);
+  command
+      .add_flag("--drop-nonfinite", args.dropNonFinite,
+                "Leave out points with NaN or infinite coordinates")
+      ->group(kGroup);
+  command
+      .add_flag("--keep-order", args.keepOrder,
+                "Keep the order of the points (the default for rows of a PCD file)")
+      ->group(kGroup);
+  command.add_flag("--any-order", args.anyOrder, "Do not keep it")->group(kGroup);
+  command
+      .add_flag("--original-ids", args.originalIds,
+                "Add the array OriginalPointIds: where in the input each point was")
+      ->group(kGroup);
+  command.add_option("--crs", content.crs, "The coordinate reference system, as WKT or EPSG:25832")
+      ->option_text("TEXT")
+      ->group(kGroup);
 }
 
 }  // namespace
@@ -167,9 +287,10 @@ void addEncodeCommand(CLI::App& app) {
       ->group("Coding");
   command
       ->add_option("--effort", args->effort,
-                   "1 (quickest) to 4 (smallest), default 2, of method fast, the default method")
+                   "1 (quickest) to 9 (smallest), default 2; 1 to 4 are method fast, 5 to 9 method "
+                   "predictive")
       ->option_text("N")
-      ->check(CLI::Range(1U, 4U))
+      ->check(CLI::Range(1U, 9U))
       ->group("Coding");
   command->add_option("--layers", args->layers, "Layers of detail, 1 to 32 (default: by size)")
       ->option_text("N")
@@ -224,10 +345,7 @@ void addEncodeCommand(CLI::App& app) {
                    "FILE.bspc takes that file's, so that neighbours meet")
       ->type_name("auto|FILE.bspc")
       ->group("Grid");
-  command->add_flag("--drop-nonfinite", args->dropNonFinite,
-                    "Leave out points with NaN or infinite coordinates");
-  command->add_flag("--positions-only", args->positionsOnly,
-                    "Leave out faces and every property but the positions");
+  addContentOptions(*command, *args);
   command->add_option("--from", args->from, "Format of the input where its name does not tell")
       ->type_name("ply|obj|off|xyz|csv|las|pcd");
   command->add_flag("-f,--force", args->force, "Replace an existing output file");
@@ -237,8 +355,10 @@ void addEncodeCommand(CLI::App& app) {
       "Examples:\n"
       "  bspc encode scan.ply scan.bspc                    as exact as the data are\n"
       "  bspc encode scan.ply scan.bspc --precision 0.001  to the millimetre, if in metres\n"
-      "  bspc encode bunny.off bunny.bspc --bits 12 --positions-only\n"
-      "  bspc encode tile.las tile.bspc --positions-only   exact, at the step of the file\n"
+      "  bspc encode bunny.off bunny.bspc --bits 12 --no-faces\n"
+      "  bspc encode tile.las tile.bspc                    exact, with all attributes\n"
+      "  bspc encode tile.las tile.bspc --arrays Classification,RGB --crs EPSG:25832\n"
+      "  bspc encode head.ply head.bspc --keep-order --array-precision Normals=0.5\n"
       "  cat scan.ply | bspc encode - - --from ply > scan.bspc");
 }
 

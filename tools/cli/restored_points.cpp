@@ -1,5 +1,8 @@
 #include "cli/restored_points.h"
 
+#include <cstddef>
+#include <cstring>
+
 #include "bspc/error.h"
 
 namespace bspc::cli {
@@ -14,10 +17,38 @@ void restoreInto(std::vector<std::uint8_t>& bytes, const Grid& grid,
   restorePositions(grid, Span<const GridPoint>(points), reinterpret_cast<T*>(bytes.data()));
 }
 
+template <class T>
+void appendNumbers(Bytes& bytes, const std::vector<std::uint64_t>& numbers) {
+  bytes.resize(numbers.size() * sizeof(T));
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const T number = static_cast<T>(numbers[i]);
+    std::memcpy(bytes.data() + i * sizeof(T), &number, sizeof(T));
+  }
+}
+
+ArrayValues numbersOf(const ArrayDescription& description,
+                      const std::vector<std::uint64_t>& numbers) {
+  ArrayValues array;
+  static_cast<ArrayDescription&>(array) = description;
+  if (description.type == ScalarType::UInt32) {
+    appendNumbers<std::uint32_t>(array.values, numbers);
+  } else {
+    appendNumbers<std::uint64_t>(array.values, numbers);
+  }
+  return array;
+}
+
 }  // namespace
 
-RestoredPoints::RestoredPoints(const Grid& grid, const DecodedPoints& points)
-    : points_(points), type_(grid.scalarType) {
+RestoredPoints::RestoredPoints(const FileInfo& info, const DecodedPoints& points)
+    : points_(points), type_(info.grid.scalarType) {
+  if (!points.counts.empty()) {
+    numbers_.push_back(numbersOf(countsDescription(info.points), points.counts));
+  }
+  if (!points.cellIds.empty()) {
+    numbers_.push_back(numbersOf(cellIdsDescription(info.points), points.cellIds));
+  }
+  const Grid& grid = info.grid;
   switch (type_) {
     case ScalarType::Float32:
       restoreInto<float>(coordinates_, grid, points.points);
@@ -56,12 +87,24 @@ RestoredPoints::RestoredPoints(const Grid& grid, const DecodedPoints& points)
   throw Error(ErrorCode::InvalidArgument, "positions cannot be bits or strings");
 }
 
-formats::ModelView RestoredPoints::model() const {
-  formats::ModelView view;
-  view.points = PointSetView(coordinates_.data(), type_, points_.points.size(), 0);
-  if (!points_.counts.empty()) view.columns.push_back({"PointCount", points_.counts});
-  if (!points_.cellIds.empty()) view.columns.push_back({"CellId", points_.cellIds});
+PointSetView RestoredPoints::view() const {
+  PointSetView view(coordinates_.data(), type_, points_.points.size(), 0);
+  for (const ArrayValues& array : points_.arrays) view.addArray(array.view());
+  for (const ArrayValues& array : numbers_) view.addArray(array.view());
   return view;
+}
+
+ArrayDescription countsDescription(std::uint64_t points) {
+  ArrayDescription description;
+  description.name = "PointCount";
+  description.type = points <= UINT32_MAX ? ScalarType::UInt32 : ScalarType::UInt64;
+  return description;
+}
+
+ArrayDescription cellIdsDescription(std::uint64_t points) {
+  ArrayDescription description = countsDescription(points);
+  description.name = "CellId";
+  return description;
 }
 
 }  // namespace bspc::cli
