@@ -3,6 +3,7 @@
 #include <vtkCommunicator.h>
 #include <vtkMultiProcessController.h>
 
+#include <algorithm>
 #include <new>
 #include <numeric>
 
@@ -14,8 +15,9 @@ namespace {
 
 /// An error as a message: its code, then its text; empty if there was none.
 Bytes messageOf(ErrorCode code, const std::string& text) {
-  Bytes message{static_cast<std::uint8_t>(code)};
-  message.insert(message.end(), text.begin(), text.end());
+  Bytes message(1 + text.size());
+  message[0] = static_cast<std::uint8_t>(code);
+  std::copy(text.begin(), text.end(), message.begin() + 1);
   return message;
 }
 

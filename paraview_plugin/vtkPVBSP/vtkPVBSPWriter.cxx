@@ -81,9 +81,8 @@ void vtkPVBSPWriter::WriteTogether() {
   });
   const std::vector<bspc::Bytes> descriptions = group.gatherEverywhere(description);
   bspc::FilePart part;
-  group.step([&] {
-    part = bspc::encodePart(input->view(), bspc::agreeOnParts(descriptions, options));
-  });
+  group.step(
+      [&] { part = bspc::encodePart(input->view(), bspc::agreeOnParts(descriptions, options)); });
   input.reset();
   const std::vector<bspc::Bytes> summaries = group.gatherEverywhere(part.summary);
   bspc::FileFrame frame;
