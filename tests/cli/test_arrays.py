@@ -327,6 +327,49 @@ class OtherContent(CommandTest):
         self.assertEqual(sorted(read_ply(self.path("b.ply"))[1]), corners)
 
 
+class Exactness(CommandTest):
+    def check(self, scalar, points):
+        write_ply(self.path("in.ply"), points, scalar=scalar)
+        self.succeed("encode", "in.ply", "file.bspc", "--exact", "--force")
+        self.assertIn(b"every bit", self.succeed("info", "file.bspc"))
+        self.succeed("verify", "file.bspc", "--against", "in.ply")
+        code = {"float": "<3f", "double": "<3d"}[scalar]
+        bits = sorted(struct.pack(code, *point) for point in points)
+        for kind in ("ply", "pcd"):
+            self.succeed("decode", "file.bspc", "back." + kind, "--force")
+            data = self.read_bytes("back." + kind)
+            size = struct.calcsize(code)
+            body = data[len(data) - size * len(points) :]
+            restored = sorted(body[at : at + size] for at in range(0, len(body), size))
+            self.assertTrue(restored == bits, kind)
+
+    def test_keeps_every_bit_of_floats(self):
+        source = random.Random(6)
+        draw = lambda: source.gauss(0, 1) * 10 ** source.randrange(-20, 20)
+        points = [tuple(draw() for _ in range(3)) for _ in range(500)] + [(-0.0, 0.0, 1e-310)]
+        self.check("double", points)
+        self.check("float", [tuple(map(float32, p)) for p in points])
+
+    def test_tells_the_bits_apart(self):
+        write_ply(self.path("in.ply"), [(0.1, 1 / 3, 1e-9), (-0.0, 2.0, 3.0)], scalar="double")
+        write_ply(self.path("other.ply"), [(0.1, 1 / 3, 1e-9), (0.0, 2.0, 3.0)], scalar="double")
+        self.succeed("encode", "in.ply", "file.bspc", "--exact")
+        self.refuse("other.ply", "verify", "file.bspc", "--against", "other.ply")
+
+    def test_excludes_other_grids(self):
+        write_ply(self.path("in.ply"), lattice_cloud(10))
+        self.fail_with(2, "encode", "in.ply", "a.bspc", "--exact", "--bits", "12")
+
+
+class Streams(ArrayTest):
+    def test_larger_than_memory_carry_arrays(self):
+        self.rows = rows_of(130000)
+        write_ply(self.path("in.ply"), self.rows, COLUMNS)
+        columns, rows = self.restore("--memory", "0.03")
+        self.assertEqual(columns, COLUMNS)
+        self.assert_same_rows(rows, self.rows)
+
+
 class Damage(ArrayTest):
     def test_of_arrays_is_found(self):
         self.succeed("encode", "in.ply", "file.bspc")

@@ -161,7 +161,7 @@ class Restorer {
     if (args_.colourLevel) layout.arrays.push_back(cellIdsDescription(info.points));
     layout.metadata = info.metadata;
     layout.keepsOrder = info.keepsOrder && points == info.points;
-    layout.lattice = info.grid;
+    if (info.grid.form != Grid::Form::FloatBits) layout.lattice = info.grid;
     if (info.points > 0) layout.bounds = boundsOf(info);
     layout.mayPatch = output_.isFile();
     return layout;

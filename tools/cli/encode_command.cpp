@@ -18,7 +18,6 @@
 #include "cli/scratch_file.h"
 #include "cli/text.h"
 #include "cli/usage_error.h"
-#include "formats/array_tuples.h"
 #include "formats/wording.h"
 
 namespace bspc::cli {
@@ -34,6 +33,7 @@ struct EncodeArguments {
   std::string layout;
   unsigned bits = 0;
   double precision = 0;
+  bool exact = false;
   std::optional<unsigned> effort;
   unsigned layers = 0;
   std::uint64_t tilePoints = 0;
@@ -51,14 +51,16 @@ struct EncodeArguments {
 };
 
 GridRequest gridRequest(const EncodeArguments& args) {
-  const int wishes =
-      (args.bits != 0 ? 1 : 0) + (args.precision != 0 ? 1 : 0) + (args.grid != "auto" ? 1 : 0);
-  if (wishes > 1) throw UsageError("--bits, --precision and --grid exclude each other");
+  const int wishes = (args.bits != 0 ? 1 : 0) + (args.precision != 0 ? 1 : 0) +
+                     (args.grid != "auto" ? 1 : 0) + (args.exact ? 1 : 0);
+  if (wishes > 1) throw UsageError("--bits, --precision, --exact and --grid exclude each other");
   GridRequest request;
   if (args.bits != 0) {
     request = GridRequest::withBits(args.bits);
   } else if (args.precision != 0) {
     request = GridRequest::withPrecision(args.precision);
+  } else if (args.exact) {
+    request = GridRequest::exactFloats();
   } else if (args.grid != "auto") {
     InputFile file(args.grid);
     request = naming(file.name(),
@@ -162,23 +164,6 @@ void printReport(const EncodeArguments& args, const std::string& name, const Enc
   std::cerr << '\n';
 }
 
-/// Reads the points with their arrays and encodes them at once: streams cannot carry arrays yet.
-EncodeReport encodeWhole(ModelPoints& points, ByteSink& sink, const EncodeOptions& options) {
-  constexpr std::size_t kBlock = std::size_t{1} << 16;
-  const std::size_t pointBytes = 3 * scalarSize(points.type());
-  std::vector<std::uint8_t> positions;
-  std::vector<ArrayValues> values = formats::emptyArrays(points.arrays());
-  for (std::size_t got = kBlock; got > 0;) {
-    const std::size_t size = positions.size();
-    positions.resize(size + kBlock * pointBytes);
-    got = points.read(positions.data() + size, values, kBlock);
-    positions.resize(size + got * pointBytes);
-  }
-  PointSetView view(positions.data(), points.type(), positions.size() / pointBytes, 0);
-  for (const ArrayValues& array : values) view.addArray(array.view());
-  return encode(view, sink, options);
-}
-
 void runEncode(const EncodeArguments& args) {
   StreamOptions options;
   options.encoding = encodeOptions(args);
@@ -199,10 +184,7 @@ void runEncode(const EncodeArguments& args) {
       reading.clear();
       return draw(share);
     };
-    report = naming(args.input, [&] {
-      return points.arrays().empty() ? encodeStream(points, sink, options)
-                                     : encodeWhole(points, sink, options.encoding);
-    });
+    report = naming(args.input, [&] { return encodeStream(points, sink, options); });
     output.commit();
   }
   if (!args.quiet) printReport(args, output.name(), report);
@@ -337,6 +319,11 @@ void addEncodeCommand(CLI::App& app) {
                    "Quantise: step in units of the data; the error is at most half of it")
       ->check(positive)
       ->type_name("STEP")
+      ->group("Grid");
+  command
+      ->add_flag("--exact", args->exact,
+                 "Keep every bit of floating-point coordinates, also where they lie\n"
+                 "on no lattice")
       ->group("Grid");
   command
       ->add_option("--grid", args->grid,

@@ -48,6 +48,18 @@ Json boundsJson(const FileInfo& info) {
   return bounds;
 }
 
+const char* formName(Grid::Form form) {
+  switch (form) {
+    case Grid::Form::Rational:
+      return "rational";
+    case Grid::Form::Affine:
+      return "affine";
+    case Grid::Form::FloatBits:
+      break;
+  }
+  return "floatBits";
+}
+
 const char* semanticName(Semantic semantic) {
   switch (semantic) {
     case Semantic::Scalars:
@@ -112,7 +124,7 @@ Json toJson(const FileInfo& info) {
   json["geometryBytes"] = info.geometryBytes;
   json["bitsPerPoint"] = bitsPerPoint(info.fileBytes, info.points);
   json["scalarType"] = scalarName(info.grid.scalarType);
-  json["gridForm"] = info.grid.form == Grid::Form::Rational ? "rational" : "affine";
+  json["gridForm"] = formName(info.grid.form);
   json["step"] = {info.grid.step(0), info.grid.step(1), info.grid.step(2)};
   if (info.points > 0) json["bounds"] = boundsJson(info);
   json["methods"] = methodsOf(info);
@@ -221,7 +233,9 @@ void printText(const std::string& name, const FileInfo& info) {
   for (std::size_t l = 0; l < info.layers.size(); ++l) {
     const LayerInfo& layer = info.layers[l];
     const std::string points = withCommas(layer.points);
-    const std::string within = layer.spread == 0 ? "0" : rounded(layer.spread * info.grid.step(0));
+    // Steps between the bits of floats differ from place to place.
+    const bool varies = layer.spread > 0 && info.grid.form == Grid::Form::FloatBits;
+    const std::string within = varies ? "varies" : rounded(layer.spread * info.grid.step(0));
     const std::string level = std::to_string(l);
     std::cout << padded(level, 5) << padded(points, 16) << padded(within, 13)
               << padded(withCommas(layer.bytes), 20)

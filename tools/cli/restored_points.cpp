@@ -10,11 +10,10 @@ namespace bspc::cli {
 namespace {
 
 template <class T>
-void restoreInto(std::vector<std::uint8_t>& bytes, const Grid& grid,
-                 const std::vector<GridPoint>& points) {
+void restoreInto(std::vector<std::uint8_t>& bytes, const Grid& grid, const DecodedPoints& points) {
   // A vector of bytes is aligned for any scalar type: its memory comes from operator new.
-  bytes.resize(3 * sizeof(T) * points.size());
-  restorePositions(grid, Span<const GridPoint>(points), reinterpret_cast<T*>(bytes.data()));
+  bytes.resize(3 * sizeof(T) * points.points.size());
+  restorePositions(grid, points, reinterpret_cast<T*>(bytes.data()));
 }
 
 template <class T>
@@ -51,34 +50,34 @@ RestoredPoints::RestoredPoints(const FileInfo& info, const DecodedPoints& points
   const Grid& grid = info.grid;
   switch (type_) {
     case ScalarType::Float32:
-      restoreInto<float>(coordinates_, grid, points.points);
+      restoreInto<float>(coordinates_, grid, points);
       return;
     case ScalarType::Float64:
-      restoreInto<double>(coordinates_, grid, points.points);
+      restoreInto<double>(coordinates_, grid, points);
       return;
     case ScalarType::Int8:
-      restoreInto<std::int8_t>(coordinates_, grid, points.points);
+      restoreInto<std::int8_t>(coordinates_, grid, points);
       return;
     case ScalarType::UInt8:
-      restoreInto<std::uint8_t>(coordinates_, grid, points.points);
+      restoreInto<std::uint8_t>(coordinates_, grid, points);
       return;
     case ScalarType::Int16:
-      restoreInto<std::int16_t>(coordinates_, grid, points.points);
+      restoreInto<std::int16_t>(coordinates_, grid, points);
       return;
     case ScalarType::UInt16:
-      restoreInto<std::uint16_t>(coordinates_, grid, points.points);
+      restoreInto<std::uint16_t>(coordinates_, grid, points);
       return;
     case ScalarType::Int32:
-      restoreInto<std::int32_t>(coordinates_, grid, points.points);
+      restoreInto<std::int32_t>(coordinates_, grid, points);
       return;
     case ScalarType::UInt32:
-      restoreInto<std::uint32_t>(coordinates_, grid, points.points);
+      restoreInto<std::uint32_t>(coordinates_, grid, points);
       return;
     case ScalarType::Int64:
-      restoreInto<std::int64_t>(coordinates_, grid, points.points);
+      restoreInto<std::int64_t>(coordinates_, grid, points);
       return;
     case ScalarType::UInt64:
-      restoreInto<std::uint64_t>(coordinates_, grid, points.points);
+      restoreInto<std::uint64_t>(coordinates_, grid, points);
       return;
     case ScalarType::Bit:
     case ScalarType::String:

@@ -70,6 +70,9 @@ std::string errorText(bool exact, const std::array<double, 3>& maxError) {
 }
 
 std::string gridText(const Grid& grid) {
+  if (grid.form == Grid::Form::FloatBits) {
+    return std::string("every bit of ") + scalarName(grid.scalarType);
+  }
   const bool shared = grid.step(0) == grid.step(1) && grid.step(0) == grid.step(2);
   std::string text = "step " + shortest(grid.step(0));
   if (!shared) text += ", " + shortest(grid.step(1)) + ", " + shortest(grid.step(2));

@@ -22,7 +22,7 @@ std::string rounded(double value);
 std::string oneLine(const std::string& text, std::size_t longest);
 /// "exact", or "greatest error 0.0005 (x), …" with the largest over the axes.
 std::string errorText(bool exact, const std::array<double, 3>& maxError);
-/// One line: "step 0.01 from (1, 2, 3), float64".
+/// One line: "step 0.01 from (1, 2, 3), float64", "every bit of float32".
 std::string gridText(const Grid& grid);
 
 }  // namespace bspc::cli

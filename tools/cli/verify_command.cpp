@@ -18,6 +18,7 @@
 #include "cli/naming.h"
 #include "cli/nearest_distance.h"
 #include "cli/progress_bar.h"
+#include "cli/restored_points.h"
 #include "cli/text.h"
 #include "formats/wording.h"
 
@@ -40,12 +41,33 @@ formats::Model readOriginal(const VerifyArguments& args) {
   return readModelFile(args.against, args.from, bar.callback());
 }
 
+/// Coordinates as an array, where grid points do not tell all their bits.
+ArrayValues coordinatesArray(ScalarType type) {
+  ArrayValues coordinates;
+  coordinates.name = "of coordinates";
+  coordinates.type = type;
+  coordinates.components = 3;
+  return coordinates;
+}
+
 /// Everything that the file holds, in its order.
 struct Restored {
+  explicit Restored(const FileInfo& info) : info_(info) {
+    coordinates = coordinatesArray(info.grid.scalarType);
+  }
+
   std::vector<GridPoint> points;
   std::vector<ArrayValues> arrays;
+  ArrayValues coordinates;  ///< empty unless the grid is one of the bits of floats
 
   void append(DecodedPoints&& tile) {
+    if (info_.grid.form == Grid::Form::FloatBits) {
+      const RestoredPoints restored(info_, tile);
+      const PointSetView view = restored.view();
+      const auto* bytes = static_cast<const std::uint8_t*>(view.data());
+      coordinates.values.insert(coordinates.values.end(), bytes,
+                                bytes + view.size() * view.strideBytes());
+    }
     points.insert(points.end(), tile.points.begin(), tile.points.end());
     if (arrays.empty()) {
       arrays = std::move(tile.arrays);
@@ -58,6 +80,9 @@ struct Restored {
       to.strings.insert(to.strings.end(), from.strings.begin(), from.strings.end());
     }
   }
+
+ private:
+  const FileInfo& info_;
 };
 
 /// A lossy file holds as many points as the original, but not the same.
@@ -154,6 +179,15 @@ class ArrayCheck {
              const GridFit& fit, const Restored& restored)
       : args_(args), info_(info), original_(original), fit_(fit), restored_(restored) {
     for (const ArrayValues& array : restored.arrays) pair(array);
+    if (info.grid.form != Grid::Form::FloatBits || restored.points.empty()) return;
+    ArrayValues given = coordinatesArray(original.type);
+    given.values = original.positions;
+    if (original.type != info.grid.scalarType) {
+      fail(std::string("its coordinates are ") + scalarName(original.type));
+    }
+    kept_.push_back(keptTuples(given, fit));
+    held_.arrays.push_back(restored.coordinates.view());
+    hasCoordinates_ = true;
   }
 
   /// Throws Error(Corrupt) if arrays differ by more than they may.
@@ -233,9 +267,10 @@ class ArrayCheck {
 
   std::string text(const ArrayComparison& result) const {
     std::string text;
-    if (!held_.arrays.empty()) {
-      text += " with " + formats::counted(held_.arrays.size(), "array", "arrays");
-      if (held_.arrays.size() < original_.values.size()) {
+    const std::size_t arrays = held_.arrays.size() - (hasCoordinates_ ? 1 : 0);
+    if (arrays > 0) {
+      text += " with " + formats::counted(arrays, "array", "arrays");
+      if (arrays < original_.values.size()) {
         text += " of " + withCommas(original_.values.size());
       }
     }
@@ -254,6 +289,8 @@ class ArrayCheck {
   const GridFit& fit_;
   const Restored& restored_;
   const ArrayValues* ids_ = nullptr;
+  /// Whether the last array is that of the coordinates.
+  bool hasCoordinates_ = false;
   std::vector<ArrayValues> kept_;
   PointTable given_;
   PointTable held_;
@@ -271,7 +308,7 @@ void runVerify(const VerifyArguments& args) {
   InputFile input(args.input);
   Decoder decoder = naming(input.name(), [&] { return Decoder(input.source()); });
   std::uint64_t count = 0;
-  Restored restored;
+  Restored restored(decoder.info());
   {
     ProgressBar bar("verifying", args.quiet);
     DecodeOptions options;

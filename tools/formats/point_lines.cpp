@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <type_traits>
 
 #include "formats/model.h"
 #include "formats/number_text.h"
@@ -15,19 +13,9 @@ namespace bspc::formats {
 
 namespace {
 
-/// Coordinates do not know −0; arrays come back bit for bit.
-enum class Zero : std::uint8_t { Unsigned, Signed };
-
-void appendScalar(std::string& line, const ScalarSource& source, std::uint64_t index, Zero zero) {
+void appendScalar(std::string& line, const ScalarSource& source, std::uint64_t index) {
   const auto* at = static_cast<const std::uint8_t*>(source.data) + index * source.stride;
-  visitScalar(source.type, [&](auto number) {
-    using T = decltype(number);
-    number = loadScalar<T>(at);
-    if constexpr (std::is_floating_point_v<T>) {
-      if (zero == Zero::Signed && number == T(0) && std::signbit(number)) line += '-';
-    }
-    appendNumber(line, number);
-  });
+  visitScalar(source.type, [&](auto zero) { appendNumber(line, loadScalar<decltype(zero)>(at)); });
 }
 
 const std::string& textOf(const ArrayView& array, std::uint64_t index, std::size_t component) {
@@ -53,7 +41,7 @@ void writePointLines(OutputBuffer& out, const PointSetView& points,
     text += style.prefix;
     for (std::size_t k = 0; k < 3; ++k) {
       if (k > 0) text += style.separator;
-      appendScalar(text, xyz[k], i, Zero::Unsigned);
+      appendScalar(text, xyz[k], i);
     }
     for (std::size_t c = 0; c < columns.size(); ++c) {
       text += style.separator;
@@ -61,7 +49,7 @@ void writePointLines(OutputBuffer& out, const PointSetView& points,
         const ArrayView& array = points.arrays()[columns[c].array];
         appendField(text, textOf(array, i, columns[c].component), style);
       } else {
-        appendScalar(text, sources[c], i, Zero::Signed);
+        appendScalar(text, sources[c], i);
       }
     }
     text += '\n';

@@ -49,7 +49,7 @@ TEST(Obj, WrittenFilesAreReadBack) {
   const std::vector<double> xyz{0.5, 1, 2, -0.0, 1e300, 0.1};
   PointSetView view = PointSetView(xyz.data(), 2);
   const std::string text = written(view, Format::Obj);
-  EXPECT_EQ(text, "# written by bspc\nv 0.5 1 2\nv 0 1e+300 0.1\n");
+  EXPECT_EQ(text, "# written by bspc\nv 0.5 1 2\nv -0 1e+300 0.1\n");
   EXPECT_EQ(numbers<double>(read(text, Format::Obj)), xyz);
   EXPECT_EQ(read(written({}, Format::Obj), Format::Obj).size(), 0U);
 }

@@ -138,8 +138,8 @@ TEST(Xyz, ErrorsSayWhere) {
 TEST(Xyz, WrittenFilesAreReadBack) {
   const std::vector<double> xyz{0.5, 1, 2, -0.0, 1e-300, 0.1};
   PointSetView view = PointSetView(xyz.data(), 2);
-  EXPECT_EQ(written(view, Format::Xyz), "0.5 1 2\n0 1e-300 0.1\n");
-  EXPECT_EQ(written(view, Format::Csv), "x,y,z\n0.5,1,2\n0,1e-300,0.1\n");
+  EXPECT_EQ(written(view, Format::Xyz), "0.5 1 2\n-0 1e-300 0.1\n");
+  EXPECT_EQ(written(view, Format::Csv), "x,y,z\n0.5,1,2\n-0,1e-300,0.1\n");
   for (const Format format : {Format::Xyz, Format::Csv}) {
     EXPECT_EQ(numbers<double>(read(written(view, format), format)), xyz);
     EXPECT_EQ(read(written({}, format), format).size(), 0U);
@@ -157,12 +157,12 @@ TEST(Xyz, ArraysGoBesideThePositions) {
             "x,y,z,PointCount\n0.1,1,2,1\n3,4,5,18446744073709551615\n");
 }
 
-TEST(Xyz, ZerosOfArraysKeepTheirSign) {
+TEST(Xyz, ZerosKeepTheirSign) {
   const std::vector<float> xyz{-0.0F, 1, 2};
   const std::vector<double> zeros{-0.0};
   PointSetView view(xyz.data(), 1);
   view.addArray(viewOf("t", ScalarType::Float64, zeros));
-  EXPECT_EQ(written(view, Format::Csv), "x,y,z,t\n0,1,2,-0\n");
+  EXPECT_EQ(written(view, Format::Csv), "x,y,z,t\n-0,1,2,-0\n");
 }
 
 TEST(Xyz, TextsWithBlanksAreWordsInXyzFiles) {
