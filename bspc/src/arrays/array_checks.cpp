@@ -78,6 +78,15 @@ void checkArrays(Span<const ArrayView> arrays, std::uint64_t points, const Encod
   if (options.originalIds) names.add(originalIdsDescription());
 }
 
+void checkDescriptions(const std::vector<ArrayDescription>& arrays, const EncodeOptions& options) {
+  UniqueNames names;
+  for (const ArrayDescription& array : arrays) {
+    checkDescription(array);
+    names.add(array);
+  }
+  if (options.originalIds) names.add(originalIdsDescription());
+}
+
 void checkMetadata(const Metadata& metadata) {
   std::set<std::string> keys;
   for (const auto& entry : metadata.entries) {

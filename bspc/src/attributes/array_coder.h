@@ -43,9 +43,9 @@ struct EncodedArray {
   Bytes payload;
   /// What the loss was: the greatest |restored − given|, or angle in degrees; 0 if lossless.
   double greatestError = 0;
-  /// Whether the payload can be decoded only with TilePoints::setInputOrder; means nothing if the
-  /// encoder had no order either. Files note it, so that readers leave the order on the disk.
-  bool usesInputOrder = true;
+  /// Whether the payload can be decoded only with TilePoints::setInputOrder. Files note it, so that
+  /// readers leave the order on the disk.
+  bool usesInputOrder = false;
 };
 
 /// Codes the tuples of the new points of `points`; those of the known points are known to the
