@@ -133,20 +133,19 @@ void PolyDataBuilder::checkMemory(const DecodedPoints& tile) {
   }
 }
 
-void PolyDataBuilder::appendCoordinates(const std::vector<GridPoint>& points) {
+void PolyDataBuilder::appendCoordinates(const DecodedPoints& tile) {
   void* place = coordinates_->WriteVoidPointer(coordinates_->GetNumberOfValues(),
-                                               3 * static_cast<vtkIdType>(points.size()));
-  const Span<const GridPoint> view(points);
+                                               3 * static_cast<vtkIdType>(tile.points.size()));
   if (coordinates_->GetDataType() == VTK_FLOAT) {
-    restorePositions(info_.grid, view, static_cast<float*>(place));
+    restorePositions(info_.grid, tile, static_cast<float*>(place));
   } else {
-    restorePositions(info_.grid, view, static_cast<double*>(place));
+    restorePositions(info_.grid, tile, static_cast<double*>(place));
   }
 }
 
 void PolyDataBuilder::append(const DecodedPoints& tile) {
   checkMemory(tile);
-  appendCoordinates(tile.points);
+  appendCoordinates(tile);
   for (std::size_t i = 0; i < arrays_.size(); ++i) appendValues(arrays_[i], tile.arrays.at(i));
   if (cellIds_ != nullptr) appendIds(cellIds_, tile.cellIds);
   if (counts_ != nullptr) appendIds(counts_, tile.counts);

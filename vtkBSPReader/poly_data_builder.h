@@ -37,7 +37,7 @@ class PolyDataBuilder {
 
  private:
   void checkMemory(const DecodedPoints& tile);
-  void appendCoordinates(const std::vector<GridPoint>& points);
+  void appendCoordinates(const DecodedPoints& tile);
 
   const FileInfo& info_;
   Options options_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <new>
 #include <optional>
 #include <vtksys/SystemInformation.hxx>
@@ -34,6 +35,15 @@ using bspc::FileInfo;
 std::optional<unsigned> levelOrNone(int level) {
   if (level < 0) return std::nullopt;
   return static_cast<unsigned>(level);
+}
+
+/// The greatest coordinate that a point of that index can have.
+double greatestCoordinate(const bspc::Grid& grid, int axis, std::uint32_t i) {
+  // Of exact float64 an index is the upper half only.
+  const bool shared = grid.form == bspc::Grid::Form::FloatBits &&
+                      grid.scalarType == bspc::ScalarType::Float64 &&
+                      i < std::numeric_limits<std::uint32_t>::max();
+  return bspc::restoredCoordinate(grid, axis, shared ? i + 1 : i);
 }
 
 std::uint64_t memoryBytes(vtkIdType mebibytes) {
@@ -116,7 +126,7 @@ void vtkBSPReader::vtkInternals::Publish(const FileInfo& info, vtkInformation* o
     for (int axis = 0; axis < 3; ++axis) {
       const auto k = static_cast<std::size_t>(axis);
       self_->BoundsOfFile[2 * k] = bspc::restoredCoordinate(info.grid, axis, info.lower[k]);
-      self_->BoundsOfFile[2 * k + 1] = bspc::restoredCoordinate(info.grid, axis, info.upper[k]);
+      self_->BoundsOfFile[2 * k + 1] = greatestCoordinate(info.grid, axis, info.upper[k]);
     }
     outInfo->Set(vtkStreamingDemandDrivenPipeline::BOUNDS(), self_->BoundsOfFile, 6);
   } else {

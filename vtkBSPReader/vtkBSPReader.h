@@ -41,7 +41,9 @@ class VTKBSPREADER_EXPORT vtkBSPReader : public vtkAbstractPolyDataReader {
   static const char* GetDescriptiveName() { return "BSPC compressed points"; }
 
   ///@{
-  /// Read from bytes in memory instead of a file. Default: off.
+  /**
+   * Read from bytes in memory instead of a file. Default: off.
+   */
   vtkSetMacro(ReadFromInputString, bool);
   vtkGetMacro(ReadFromInputString, bool);
   vtkBooleanMacro(ReadFromInputString, bool);
@@ -50,22 +52,28 @@ class VTKBSPREADER_EXPORT vtkBSPReader : public vtkAbstractPolyDataReader {
   ///@}
 
   ///@{
-  /// The level of detail to read, 0 (coarsest) to GetNumberOfLevels() - 1, which is every point.
-  /// Points of a coarser level each stand for some. Default: -1, the finest.
+  /**
+   * The level of detail to read, 0 (coarsest) to GetNumberOfLevels() - 1, which is every point.
+   * Points of a coarser level each stand for some. Default: -1, the finest.
+   */
   vtkSetClampMacro(LevelOfDetail, int, -1, VTK_INT_MAX);
   vtkGetMacro(LevelOfDetail, int);
   ///@}
 
   ///@{
-  /// At most so many points (over all pieces): the finest level that fits, thinned where even the
-  /// coarsest does not. Default: 0, no limit.
+  /**
+   * At most so many points (over all pieces): the finest level that fits, thinned where even the
+   * coarsest does not. Default: 0, no limit.
+   */
   vtkSetClampMacro(MaximumNumberOfPoints, vtkIdType, 0, VTK_ID_MAX);
   vtkGetMacro(MaximumNumberOfPoints, vtkIdType);
   ///@}
 
   ///@{
-  /// Only the points in the box (x min, x max, y min, y max, z min, z max; its faces belong to it),
-  /// and only from the tiles that touch it. Default: off.
+  /**
+   * Only the points in the box (x min, x max, y min, y max, z min, z max; its faces belong to it),
+   * and only from the tiles that touch it. Default: off.
+   */
   vtkSetMacro(UseBox, bool);
   vtkGetMacro(UseBox, bool);
   vtkBooleanMacro(UseBox, bool);
@@ -74,16 +82,20 @@ class VTKBSPREADER_EXPORT vtkBSPReader : public vtkAbstractPolyDataReader {
   ///@}
 
   ///@{
-  /// Make one vertex cell a point; without cells nothing is rendered. Default: on.
+  /**
+   * Make one vertex cell a point; without cells nothing is rendered. Default: on.
+   */
   vtkSetMacro(GenerateVertices, bool);
   vtkGetMacro(GenerateVertices, bool);
   vtkBooleanMacro(GenerateVertices, bool);
   ///@}
 
   ///@{
-  /// Add a point array "CellId" with the cell of the coder's partition that each point lies in, at
-  /// the level CellIdLevel, which may not be finer than the one read. Default: off, and -1: the
-  /// level that is read.
+  /**
+   * Add a point array "CellId" with the cell of the coder's partition that each point lies in, at
+   * the level CellIdLevel, which may not be finer than the one read. Default: off, and -1: the
+   * level that is read.
+   */
   vtkSetMacro(GenerateCellIds, bool);
   vtkGetMacro(GenerateCellIds, bool);
   vtkBooleanMacro(GenerateCellIds, bool);
@@ -92,35 +104,45 @@ class VTKBSPREADER_EXPORT vtkBSPReader : public vtkAbstractPolyDataReader {
   ///@}
 
   ///@{
-  /// Add a point array "PointCount": how many points of the file each one stands for. Default: off.
+  /**
+   * Add a point array "PointCount": how many points of the file each one stands for. Default: off.
+   */
   vtkSetMacro(GeneratePointCounts, bool);
   vtkGetMacro(GeneratePointCounts, bool);
   vtkBooleanMacro(GeneratePointCounts, bool);
   ///@}
 
   ///@{
-  /// Take what is whole of a file that ends early instead of refusing it. Default: off.
+  /**
+   * Take what is whole of a file that ends early instead of refusing it. Default: off.
+   */
   vtkSetMacro(AllowPartial, bool);
   vtkGetMacro(AllowPartial, bool);
   vtkBooleanMacro(AllowPartial, bool);
   ///@}
 
   ///@{
-  /// Threads that decode. Default: 0, as many as the machine has. The output does not depend on it.
+  /**
+   * Threads that decode. Default: 0, as many as the machine has. The output does not depend on it.
+   */
   vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
   vtkGetMacro(NumberOfThreads, int);
   ///@}
 
   ///@{
-  /// The most memory that the output may take, in MiB, as a protection against files that unfold to
-  /// more than anybody wants. Default: 0, the memory of the machine.
+  /**
+   * The most memory that the output may take, in MiB, as a protection against files that unfold to
+   * more than anybody wants. Default: 0, the memory of the machine.
+   */
   vtkSetClampMacro(MemoryLimit, vtkIdType, 0, VTK_ID_MAX >> 20);
   vtkGetMacro(MemoryLimit, vtkIdType);
   ///@}
 
   ///@{
-  /// The arrays of the file, and which of them to read; all by default. Those that are switched off
-  /// are not read from disk. Names are known after UpdateInformation().
+  /**
+   * The arrays of the file, and which of them to read; all by default. Those that are switched off
+   * are not read from disk. Names are known after UpdateInformation().
+   */
   int GetNumberOfPointArrays();
   const char* GetPointArrayName(int index);
   int GetPointArrayStatus(const char* name);
@@ -129,8 +151,11 @@ class VTKBSPREADER_EXPORT vtkBSPReader : public vtkAbstractPolyDataReader {
   ///@}
 
   ///@{
-  /// What the file says about itself, known after UpdateInformation(): points and tiles of the
-  /// whole file, bounds (x min, x max, …; an empty file has those of vtkMath::UninitializeBounds).
+  /**
+   * What the file says about itself, known after UpdateInformation(): points and tiles of the
+   * whole file, bounds (x min, x max, …; an empty file has those of vtkMath::UninitializeBounds).
+   * Bounds of coordinates that are kept bit for bit may be a little wider than the points are.
+   */
   vtkGetMacro(NumberOfPointsInFile, vtkIdType);
   vtkGetMacro(NumberOfTiles, vtkIdType);
   vtkGetVector6Macro(BoundsOfFile, double);

@@ -63,8 +63,8 @@ bspc::GridRequest vtkBSPWriter::vtkInternals::Grid() const {
       request = bspc::GridRequest::withPrecision(self_->Precision);
       break;
     case EXACT:
-      throw bspc::Error(bspc::ErrorCode::Unsupported,
-                        "coordinates cannot be kept bit for bit yet; use another GridMode");
+      request = bspc::GridRequest::exactFloats();
+      break;
     default:
       break;
   }

@@ -47,7 +47,9 @@ class VTKBSPWRITER_EXPORT vtkBSPWriter : public vtkWriter {
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /// The file to write.
+  /**
+   * The file to write.
+   */
   vtkSetFilePathMacro(FileName);
   vtkGetFilePathMacro(FileName);
   ///@}
@@ -56,7 +58,9 @@ class VTKBSPWRITER_EXPORT vtkBSPWriter : public vtkWriter {
   static const char* GetDescriptiveName() { return "BSPC compressed points"; }
 
   ///@{
-  /// Write to bytes in memory instead of a file. Default: off.
+  /**
+   * Write to bytes in memory instead of a file. Default: off.
+   */
   vtkSetMacro(WriteToOutputString, bool);
   vtkGetMacro(WriteToOutputString, bool);
   vtkBooleanMacro(WriteToOutputString, bool);
@@ -85,32 +89,42 @@ class VTKBSPWRITER_EXPORT vtkBSPWriter : public vtkWriter {
   ///@}
 
   ///@{
-  /// For GridMode BITS, 1 to 32. Default: 16.
+  /**
+   * For GridMode BITS, 1 to 32. Default: 16.
+   */
   vtkSetClampMacro(Bits, int, 1, 32);
   vtkGetMacro(Bits, int);
   ///@}
 
   ///@{
-  /// For GridMode PRECISION, above 0. Default: 0.001.
+  /**
+   * For GridMode PRECISION, above 0. Default: 0.001.
+   */
   vtkSetMacro(Precision, double);
   vtkGetMacro(Precision, double);
   ///@}
 
   ///@{
-  /// How much time smallness is worth, from 1 (quickest). Default: 0, the library's choice.
+  /**
+   * How much time smallness is worth, from 1 (quickest). Default: 0, the library's choice.
+   */
   vtkSetClampMacro(Effort, int, 0, 9);
   vtkGetMacro(Effort, int);
   ///@}
 
   ///@{
-  /// Name of the method that codes positions ("fast", "kd", "bsp", …). Default: none, the library's
-  /// choice.
+  /**
+   * Name of the method that codes positions ("fast", "kd", "bsp", …). Default: none, the library's
+   * choice.
+   */
   vtkSetStringMacro(Method);
   vtkGetStringMacro(Method);
   ///@}
 
   ///@{
-  /// Keep the order of the points, which costs some bits a point. Default: off.
+  /**
+   * Keep the order of the points, which costs some bits a point. Default: off.
+   */
   vtkSetMacro(KeepOrder, bool);
   vtkGetMacro(KeepOrder, bool);
   vtkBooleanMacro(KeepOrder, bool);
@@ -120,7 +134,9 @@ class VTKBSPWRITER_EXPORT vtkBSPWriter : public vtkWriter {
   /// be read, or at the end.
   enum Layouts { PROGRESSIVE = 0, STREAMING = 1 };
   ///@{
-  /// Default: PROGRESSIVE.
+  /**
+   * Default: PROGRESSIVE.
+   */
   vtkSetClampMacro(Layout, int, PROGRESSIVE, STREAMING);
   vtkGetMacro(Layout, int);
   void SetLayoutToProgressive() { this->SetLayout(PROGRESSIVE); }
@@ -128,57 +144,73 @@ class VTKBSPWRITER_EXPORT vtkBSPWriter : public vtkWriter {
   ///@}
 
   ///@{
-  /// Levels of detail, 1 to 32. Default: 0, by the number of points.
+  /**
+   * Levels of detail, 1 to 32. Default: 0, by the number of points.
+   */
   vtkSetClampMacro(NumberOfLevels, int, 0, 32);
   vtkGetMacro(NumberOfLevels, int);
   ///@}
 
   ///@{
-  /// Most points of a tile, which is what parts of a file are read by. Default: 0, what suits the
-  /// method.
+  /**
+   * Most points of a tile, which is what parts of a file are read by. Default: 0, what suits the
+   * method.
+   */
   vtkSetClampMacro(PointsPerTile, vtkIdType, 0, VTK_ID_MAX);
   vtkGetMacro(PointsPerTile, vtkIdType);
   ///@}
 
   ///@{
-  /// Leave out cells that are no vertices, and arrays of cells, instead of refusing them. Default:
-  /// off.
+  /**
+   * Leave out cells that are no vertices, and arrays of cells, instead of refusing them. Default:
+   * off.
+   */
   vtkSetMacro(DropCells, bool);
   vtkGetMacro(DropCells, bool);
   vtkBooleanMacro(DropCells, bool);
   ///@}
 
   ///@{
-  /// Leave out points with infinite coordinates or NaN instead of refusing them. Default: off.
+  /**
+   * Leave out points with infinite coordinates or NaN instead of refusing them. Default: off.
+   */
   vtkSetMacro(DropNonFinite, bool);
   vtkGetMacro(DropNonFinite, bool);
   vtkBooleanMacro(DropNonFinite, bool);
   ///@}
 
   ///@{
-  /// Threads that encode. Default: 0, as many as the machine has. The file does not depend on it.
+  /**
+   * Threads that encode. Default: 0, as many as the machine has. The file does not depend on it.
+   */
   vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
   vtkGetMacro(NumberOfThreads, int);
   ///@}
 
   ///@{
-  /// Which point arrays to write: those that are not switched off here.
+  /**
+   * Which point arrays to write: those that are not switched off here.
+   */
   virtual vtkDataArraySelection* GetPointDataArraySelection();
   int GetPointArrayStatus(const char* name);
   void SetPointArrayStatus(const char* name, int status);
   ///@}
 
   ///@{
-  /// Greatest error that values of an array may have (of normals: greatest angle, in degrees).
-  /// Default: 0, values come back bit for bit.
+  /**
+   * Greatest error that values of an array may have (of normals: greatest angle, in degrees).
+   * Default: 0, values come back bit for bit.
+   */
   void SetArrayTolerance(const char* name, double tolerance);
   double GetArrayTolerance(const char* name);
   void ClearArrayTolerances();
   ///@}
 
   ///@{
-  /// What was written by the last Write(): points and bytes; whether every coordinate comes back as
-  /// the number that went in; if not, the greatest error along x, y and z.
+  /**
+   * What was written by the last Write(): points and bytes; whether every coordinate comes back as
+   * the number that went in; if not, the greatest error along x, y and z.
+   */
   vtkGetMacro(NumberOfPointsWritten, vtkIdType);
   vtkGetMacro(NumberOfBytesWritten, vtkIdType);
   vtkGetMacro(Exact, bool);
@@ -202,9 +234,11 @@ class VTKBSPWRITER_EXPORT vtkBSPWriter : public vtkWriter {
   void WriteData() override;
 
   ///@{
-  /// For writers that put a file together in another way. Guard() runs a body that writes the file;
-  /// what goes wrong becomes a VTK error. Within it, ReadInput() gives the points with the arrays
-  /// that are to be written, MakeEncodeOptions() says how, and Report() tells that all is written.
+  /**
+   * For writers that put a file together in another way. Guard() runs a body that writes the file;
+   * what goes wrong becomes a VTK error. Within it, ReadInput() gives the points with the arrays
+   * that are to be written, MakeEncodeOptions() says how, and Report() tells that all is written.
+   */
   void Guard(const std::function<void()>& body);
   std::unique_ptr<bspc::vtk::InputPoints> ReadInput();
   bspc::EncodeOptions MakeEncodeOptions();

@@ -12,11 +12,15 @@ path = sys.argv[1]
 
 random = numpy.random.default_rng(1)
 points = random.uniform(-10, 10, (100_000, 3))
-report = bspc.write(path, points, precision=0.001)
+height = points[:, 2].astype(numpy.float32)
+report = bspc.write(
+    path, points, {"height": height}, precision=0.001, metadata={"CRS": "EPSG:25832"}
+)
 print(f"{report.points} points in {report.bytes} bytes, greatest error {max(report.max_error)}")
 
 scan = bspc.read(path, box=((0, 0, 0), (10, 10, 10)))
 print(f"{len(scan.points)} points are in the box, the first at {scan.points[0]}")
+print(f"they are in {scan.metadata['CRS']}, at most {scan.arrays['height'].max()} high")
 
 reader = bspc.vtkBSPReader()
 reader.SetFileName(path)

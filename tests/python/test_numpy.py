@@ -1,5 +1,6 @@
 """bspc.read, bspc.write and bspc.encode: NumPy arrays in and out."""
 
+import ast
 import pathlib
 import tempfile
 import unittest
@@ -65,6 +66,65 @@ class Numpy(unittest.TestCase):
         points = self.random.random((2000, 3)) * 100
         self.assertLessEqual(max(bspc.write(self.path, points, precision=0.5).max_error), 0.25)
         self.assertLessEqual(max(bspc.write(self.path, points, bits=10).max_error), 50 / 1023)
+
+    def test_exact_coordinates_keep_every_bit(self):
+        points = self.random.normal(size=(1000, 3)) ** 5
+        for dtype in ("f4", "f8"):
+            report = bspc.write(self.path, points.astype(dtype), exact=True)
+            self.assertTrue(report.exact)
+            back = bspc.read(self.path).points
+            self.assertEqual(back.dtype, dtype)
+            numpy.testing.assert_array_equal(rows(back), rows(points.astype(dtype)))
+
+    def test_arrays_and_metadata_come_back_with_their_points(self):
+        count = len(self.points)
+        arrays = {
+            "row": numpy.arange(count, dtype="u4"),
+            "RGB": self.random.integers(0, 256, (count, 3), dtype="u1"),
+            "normals": self.random.normal(size=(count, 3)).astype("f4"),
+            "time": 10**15 + self.random.integers(0, 10**6, count).cumsum(),
+            "seen": self.random.random(count) < 0.5,
+            "label": numpy.array(["ground", "Bäume", ""])[self.random.integers(0, 3, count)],
+            "big": self.random.random((count, 2)).astype(">f8"),
+        }
+        metadata = {
+            "CRS": "EPSG:25832",
+            "LengthUnit": "m",
+            "operator": "Grün",
+            "matrix": numpy.eye(4) / 3,
+            "stations": ["a", "b"],
+        }
+        bspc.write(self.path, self.points, arrays, metadata=metadata, colours="RGB", normals="normals")
+        back = bspc.read(self.path)
+        row = back.arrays["row"]
+        numpy.testing.assert_array_equal(numpy.sort(row), arrays["row"])
+        numpy.testing.assert_array_equal(back.points, self.points[row])
+        for name, values in arrays.items():
+            numpy.testing.assert_array_equal(back.arrays[name], values[row], err_msg=name)
+        self.assertEqual(back.arrays["seen"].dtype, bool)
+        self.assertEqual(back.arrays["RGB"].dtype, numpy.uint8)
+        self.assertEqual(set(back.metadata), set(metadata))
+        for name in ("CRS", "LengthUnit", "operator"):
+            self.assertEqual(back.metadata[name], metadata[name])
+        numpy.testing.assert_array_equal(back.metadata["matrix"], metadata["matrix"])
+        self.assertEqual(list(back.metadata["stations"]), ["a", "b"])
+        self.assertEqual(list(bspc.read(self.path, arrays=["time"]).arrays), ["time"])
+        bspc.write(self.path, self.points, arrays, keep_order=True)
+        kept = bspc.read(self.path)
+        numpy.testing.assert_array_equal(kept.points, self.points)
+        numpy.testing.assert_array_equal(kept.arrays["label"], arrays["label"])
+
+    def test_tolerances_bound_the_errors_of_arrays(self):
+        values = self.random.random(5000)
+        row = numpy.arange(5000, dtype="u4")
+        report = bspc.write(
+            self.path, self.points, {"v": values, "row": row}, tolerances={"v": 0.01}
+        )
+        back = bspc.read(self.path).arrays
+        error = numpy.abs(back["v"] - values[back["row"]]).max()
+        self.assertLessEqual(error, 0.01)
+        self.assertLessEqual(error, report.array_errors["v"])
+        self.assertEqual(report.array_errors["row"], 0)
 
     def test_parts_are_read_on_their_own(self):
         data = bspc.encode(self.points, tile_points=500, levels=3)
@@ -137,6 +197,24 @@ class Numpy(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "no array"):
             bspc.read(bspc.encode(self.points), arrays=["a"])
         self.assertFalse(self.path.exists())
+
+    def test_the_classes_have_documentation_and_type_stubs(self):
+        for cls in (bspc.vtkBSPReader, bspc.vtkBSPWriter):
+            path = pathlib.Path(bspc.__file__).with_name(cls.__name__ + ".pyi")
+            (stub,) = (
+                node for node in ast.parse(path.read_text()).body if isinstance(node, ast.ClassDef)
+            )
+            stubbed = {node.name for node in stub.body if isinstance(node, ast.FunctionDef)}
+            methods = {
+                name
+                for name, value in vars(cls).items()
+                if not name.startswith("_") and callable(value) and not isinstance(value, type)
+            }
+            self.assertEqual(stubbed, methods)
+        self.assertIn("its faces belong to it", bspc.vtkBSPReader.SetUseBox.__doc__)
+        self.assertIn("keep", bspc.vtkBSPWriter.SetKeepOrder.__doc__.lower())
+        for function in (bspc.read, bspc.write, bspc.encode):
+            self.assertGreater(len(function.__doc__), 50)
 
 
 if __name__ == "__main__":

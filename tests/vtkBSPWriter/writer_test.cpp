@@ -19,7 +19,9 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <random>
 
 #include "support/point_sets.h"
 #include "vtkBSPReader.h"
@@ -156,6 +158,28 @@ TEST_F(Writer, GridModesBoundTheError) {
   writer_->SetGridModeToPrecision();
   writer_->SetPrecision(-1);
   EXPECT_NE(complaintAbout(input), "");
+}
+
+TEST_F(Writer, TheExactModeKeepsEveryBit) {
+  writer_->SetGridModeToExact();
+  std::mt19937_64 random(3);
+  std::vector<std::array<double, 3>> points = {{-0.0, 0.0, 5e-324}, {1e300, -1e-300, 0.1}};
+  for (int i = 0; i < 500; ++i) {
+    points.push_back({std::ldexp(static_cast<double>(random()), static_cast<int>(i % 90) - 100),
+                      -static_cast<double>(random()) / 3, static_cast<double>(i) / 7});
+  }
+  for (const int type : {VTK_DOUBLE, VTK_FLOAT}) {
+    if (type == VTK_FLOAT) points.erase(points.begin(), points.begin() + 2);
+    const auto input = pointsOnly(points, type);
+    written(input, writer_);
+    vtkPolyData* output = readBack();
+    EXPECT_EQ(output->GetPoints()->GetDataType(), type);
+    EXPECT_EQ(sortedPositions(output), sortedPositions(input));
+    for (int i = 0; i < 6; ++i) {
+      const double bound = reader_->GetBoundsOfFile()[i];
+      EXPECT_TRUE(i % 2 == 0 ? bound <= input->GetBounds()[i] : bound >= input->GetBounds()[i]);
+    }
+  }
 }
 
 TEST_F(Writer, PointSetsOfEveryKindAreTaken) {
