@@ -30,16 +30,15 @@ void appendPoint(std::mt19937_64& random, std::vector<float>& xyz) {
 
 void generate(std::uint64_t points) {
   using bspc::formats::Format;
-  bspc::formats::ModelWriter writer(std::cout, Format::Ply,
-                                    {bspc::ScalarType::Float32, points, {}});
+  bspc::formats::ModelLayout layout;
+  layout.points = points;
+  bspc::formats::ModelWriter writer(std::cout, Format::Ply, layout);
   std::mt19937_64 random(1);
   std::vector<float> xyz;
   for (std::uint64_t written = 0; written < points; written += xyz.size() / 3) {
     xyz.clear();
     while (xyz.size() < 3 * kPiece && written + xyz.size() / 3 < points) appendPoint(random, xyz);
-    bspc::formats::ModelView piece;
-    piece.points = bspc::PointSetView(xyz.data(), xyz.size() / 3);
-    writer.append(piece);
+    writer.append(bspc::PointSetView(xyz.data(), xyz.size() / 3));
   }
   writer.finish();
 }

@@ -44,12 +44,12 @@ unsigned quarteredLayers(std::uint64_t points) {
   return layers;
 }
 
-/// Layers of method fast are 64 times smaller than the next: one for a single tile, two for some,
+/// Layers of method fast are 128 times smaller than the next: one for a single tile, two for some,
 /// three where the coarser of two would still be large.
 unsigned fastLayers(std::uint64_t points, std::uint64_t tilePoints) {
   constexpr std::uint64_t kLargeCoarseLayer = std::uint64_t{1} << 16;
   if (points <= tilePoints) return 1;
-  return points / 64 <= kLargeCoarseLayer ? 2 : 3;
+  return points / 128 <= kLargeCoarseLayer ? 2 : 3;
 }
 
 Method methodOfEffort(unsigned effort) {

@@ -28,8 +28,23 @@ void DecodedTiles::append(DecodedPoints&& tile) {
                     std::to_string(limits_.memoryBytes) +
                     " bytes; raise the limit if the file is to be trusted");
   }
+  makeRoom(tile.points.size());
   appendPoints(all_, std::move(tile));
   bytes_ = memoryOf(all_);
+}
+
+/// Grows in long strides towards what the file claims, so that points are seldom moved; but only to
+/// a multiple of what was decoded, and to a small part of the memory that is allowed.
+void DecodedTiles::makeRoom(std::size_t more) {
+  constexpr std::uint64_t kStride = 32;
+  constexpr std::uint64_t kPart = 8;
+  std::vector<GridPoint>& points = all_.points;
+  const std::uint64_t needed = std::uint64_t{points.size()} + more;
+  if (needed <= points.capacity()) return;
+  const std::uint64_t wish = std::min(claimed_, kStride * needed);
+  if (wish > needed && wish <= limits_.memoryBytes / kPart / sizeof(GridPoint)) {
+    points.reserve(static_cast<std::size_t>(wish));
+  }
 }
 
 void thinTo(std::uint64_t count, DecodedPoints& points) {

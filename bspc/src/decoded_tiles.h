@@ -12,7 +12,9 @@ namespace bspc {
 /// Gathers decoded tiles into the points of the file, within the limits.
 class DecodedTiles {
  public:
-  explicit DecodedTiles(const DecodeLimits& limits) : limits_(limits) {}
+  /// `claimed`: how many points the file says there are.
+  DecodedTiles(const DecodeLimits& limits, std::uint64_t claimed)
+      : limits_(limits), claimed_(claimed) {}
 
   /// Throws Error(LimitExceeded).
   void append(DecodedPoints&& tile);
@@ -20,7 +22,10 @@ class DecodedTiles {
   DecodedPoints take() { return std::move(all_); }
 
  private:
+  void makeRoom(std::size_t more);
+
   const DecodeLimits& limits_;
+  std::uint64_t claimed_;
   DecodedPoints all_;
   std::atomic<std::uint64_t> bytes_{0};  ///< read by other threads
 };

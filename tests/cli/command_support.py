@@ -109,15 +109,19 @@ def write_text(path, rows, kind):
         file.write(text)
 
 
-def write_las(path, counts, scale, offset, point_format=0, mark=0):
-    """LAS 1.2; `counts` are triples of whole numbers of the scale. `mark` is set by compressors."""
+def write_las(path, counts, scale, offset, point_format=0, mark=0, attributes=None):
+    """LAS 1.2; `counts` are triples of whole numbers of the scale. `mark` is set by compressors.
+
+    `attributes` are what follows the positions in the records, by default zeros.
+    """
     size = (20, 28, 26, 34)[point_format]
     header = struct.pack("<4s20xBB68xHIIBHI20x", b"LASF", 1, 2, 227, 227, 0, point_format | mark,
                          size, len(counts))
     with open(path, "wb") as file:
         file.write(header + struct.pack("<12d", *scale, *offset, *[0.0] * 6))
-        for count in counts:
-            file.write(struct.pack("<3i", *count) + bytes(size - 12))
+        for i, count in enumerate(counts):
+            further = attributes[i] if attributes else bytes(size - 12)
+            file.write(struct.pack("<3i", *count) + further)
 
 
 def write_pcd(path, rows, height=1):

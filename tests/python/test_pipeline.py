@@ -132,7 +132,7 @@ class Pipeline(unittest.TestCase):
         reader.SetLevelOfDetail(1)
         preview = picture(reader, "preview.png")
         whole = picture(self.reader(), "read.png")
-        self.assertGreater(foreground(preview), 0.01)
+        self.assertGreater(foreground(preview), 0.005)
         self.assertLess(foreground(preview), foreground(whole))
 
 

@@ -197,7 +197,7 @@ TEST_F(Reader, LevelsAndBudgetsGiveFewerPointsThatStandForAll) {
     reader_->SetMaximumNumberOfPoints(most);
     reader_->Update();
     EXPECT_LE(output->GetNumberOfPoints(), most);
-    EXPECT_GT(output->GetNumberOfPoints(), most / 100);
+    EXPECT_GT(output->GetNumberOfPoints(), most / 200);
   }
 
   const ErrorLog log(reader_);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -10,6 +11,7 @@
 #include "cli/query_options.h"
 #include "cli/text.h"
 #include "cli/usage_error.h"
+#include "formats/wording.h"
 
 namespace bspc::cli {
 
@@ -46,6 +48,73 @@ Json boundsJson(const FileInfo& info) {
   return bounds;
 }
 
+const char* formName(Grid::Form form) {
+  switch (form) {
+    case Grid::Form::Rational:
+      return "rational";
+    case Grid::Form::Affine:
+      return "affine";
+    case Grid::Form::FloatBits:
+      break;
+  }
+  return "floatBits";
+}
+
+const char* semanticName(Semantic semantic) {
+  switch (semantic) {
+    case Semantic::Scalars:
+      return "scalars";
+    case Semantic::Normals:
+      return "normals";
+    case Semantic::Colours:
+      return "colours";
+    case Semantic::TextureCoordinates:
+      return "textureCoordinates";
+    case Semantic::Ids:
+      return "ids";
+    case Semantic::None:
+      break;
+  }
+  return "";
+}
+
+Json descriptionJson(const ArrayDescription& array) {
+  Json json{
+      {"name", array.name}, {"type", scalarName(array.type)}, {"components", array.components}};
+  if (!array.componentNames.empty()) json["componentNames"] = array.componentNames;
+  if (!array.unit.empty()) json["unit"] = array.unit;
+  if (array.semantic != Semantic::None) json["semantic"] = semanticName(array.semantic);
+  if (array.tolerance > 0) json["tolerance"] = array.tolerance;
+  return json;
+}
+
+Json arraysJson(const FileInfo& info) {
+  Json json = Json::array();
+  for (const ArrayInfo& array : info.arrays) {
+    Json entry = descriptionJson(array);
+    entry["bytes"] = array.bytes;
+    entry["bitsPerValue"] = bitsPerPoint(array.bytes, info.points) / array.components;
+    entry["firstLevel"] = array.firstLevel;
+    json.push_back(std::move(entry));
+  }
+  return json;
+}
+
+Json metadataJson(const Metadata& metadata) {
+  Json json = Json::object();
+  if (!metadata.crs.empty()) json["crs"] = metadata.crs;
+  if (!metadata.lengthUnit.empty()) json["lengthUnit"] = metadata.lengthUnit;
+  json["entries"] = Json::object();
+  for (const auto& [key, text] : metadata.entries) json["entries"][key] = text;
+  json["fieldData"] = Json::array();
+  for (const ArrayValues& array : metadata.fieldData) {
+    Json entry = descriptionJson(array);
+    entry["tuples"] = array.tuples();
+    json["fieldData"].push_back(std::move(entry));
+  }
+  return json;
+}
+
 Json toJson(const FileInfo& info) {
   Json json;
   json["version"] = std::to_string(info.versionMajor) + "." + std::to_string(info.versionMinor);
@@ -55,7 +124,7 @@ Json toJson(const FileInfo& info) {
   json["geometryBytes"] = info.geometryBytes;
   json["bitsPerPoint"] = bitsPerPoint(info.fileBytes, info.points);
   json["scalarType"] = scalarName(info.grid.scalarType);
-  json["gridForm"] = info.grid.form == Grid::Form::Rational ? "rational" : "affine";
+  json["gridForm"] = formName(info.grid.form);
   json["step"] = {info.grid.step(0), info.grid.step(1), info.grid.step(2)};
   if (info.points > 0) json["bounds"] = boundsJson(info);
   json["methods"] = methodsOf(info);
@@ -66,7 +135,74 @@ Json toJson(const FileInfo& info) {
     json["layers"].push_back(
         {{"points", layer.points}, {"spreadSteps", layer.spread}, {"bytes", layer.bytes}});
   }
+  json["keepsOrder"] = info.keepsOrder;
+  json["orderBytes"] = info.orderBytes;
+  json["arrays"] = arraysJson(info);
+  json["metadata"] = metadataJson(info.metadata);
   return json;
+}
+
+std::string padded(const std::string& text, std::size_t width) {
+  return text.size() < width ? std::string(width - text.size(), ' ') + text : text;
+}
+
+/// "float32", "3 x uint8".
+std::string typeText(const ArrayDescription& array) {
+  const std::string type = scalarName(array.type);
+  return array.components == 1 ? type : std::to_string(array.components) + " x " + type;
+}
+
+double bitsPerValue(const ArrayInfo& array, std::uint64_t points) {
+  return bitsPerPoint(array.bytes, points) / array.components;
+}
+
+/// What is special about an array, in words.
+std::string notesOf(const ArrayInfo& array) {
+  std::string notes;
+  const auto note = [&](const std::string& text) { notes += (notes.empty() ? "" : "; ") + text; };
+  std::string components;
+  for (const std::string& component : array.componentNames) {
+    components += (components.empty() ? "" : ", ") + component;
+  }
+  if (!components.empty()) note(oneLine(components, 60));
+  if (!array.unit.empty()) note("in " + oneLine(array.unit, 30));
+  if (array.tolerance > 0) note("within " + rounded(array.tolerance));
+  if (array.firstLevel > 0) note("from level " + std::to_string(array.firstLevel) + " on");
+  return notes;
+}
+
+void printArrays(const FileInfo& info) {
+  if (info.arrays.empty()) return;
+  std::size_t widest = 5;
+  for (const ArrayInfo& array : info.arrays) {
+    widest = std::max(widest, oneLine(array.name, 40).size());
+  }
+  std::cout << "array" << std::string(widest - 5, ' ')
+            << "          type           bytes  bits a value\n";
+  for (const ArrayInfo& array : info.arrays) {
+    const std::string name = oneLine(array.name, 40);
+    const std::string notes = notesOf(array);
+    std::cout << name << std::string(widest - name.size(), ' ') << padded(typeText(array), 14)
+              << padded(withCommas(array.bytes), 16)
+              << padded(fixed(bitsPerValue(array, info.points), 3), 14)
+              << (notes.empty() ? "" : "  " + notes) << '\n';
+  }
+}
+
+void printMetadata(const Metadata& metadata) {
+  constexpr std::size_t kLongest = 90;
+  if (!metadata.crs.empty()) std::cout << "crs        " << oneLine(metadata.crs, kLongest) << '\n';
+  if (!metadata.lengthUnit.empty()) {
+    std::cout << "unit       " << oneLine(metadata.lengthUnit, kLongest) << '\n';
+  }
+  for (const auto& [key, text] : metadata.entries) {
+    std::cout << "metadata   " << oneLine(key, 40) << " = " << oneLine(text, kLongest) << '\n';
+  }
+  for (const ArrayValues& array : metadata.fieldData) {
+    std::cout << "metadata   " << oneLine(array.name, 40) << ": "
+              << formats::counted(array.tuples(), "tuple", "tuples") << " of " << typeText(array)
+              << '\n';
+  }
 }
 
 void printText(const std::string& name, const FileInfo& info) {
@@ -97,15 +233,24 @@ void printText(const std::string& name, const FileInfo& info) {
   for (std::size_t l = 0; l < info.layers.size(); ++l) {
     const LayerInfo& layer = info.layers[l];
     const std::string points = withCommas(layer.points);
-    const std::string within = layer.spread == 0 ? "0" : rounded(layer.spread * info.grid.step(0));
+    // Steps between the bits of floats differ from place to place.
+    const bool varies = layer.spread > 0 && info.grid.form == Grid::Form::FloatBits;
+    const std::string within = varies ? "varies" : rounded(layer.spread * info.grid.step(0));
     const std::string level = std::to_string(l);
-    const auto pad = [](const std::string& text, std::size_t width) {
-      return text.size() < width ? std::string(width - text.size(), ' ') + text : text;
-    };
-    std::cout << pad(level, 5) << pad(points, 16) << pad(within, 13)
-              << pad(withCommas(layer.bytes), 20)
+    std::cout << padded(level, 5) << padded(points, 16) << padded(within, 13)
+              << padded(withCommas(layer.bytes), 20)
               << (l < info.wholeLayers ? "" : "  (not in this file)") << '\n';
   }
+  printArrays(info);
+  if (info.keepsOrder) {
+    std::cout << "order      as in the input (" << withCommas(info.orderBytes) << " bytes)\n";
+  }
+  printMetadata(info.metadata);
+}
+
+/// Texts of a file that are no UTF-8 must not stop it from being shown.
+std::string text(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
 /// What decoding a part would read.
@@ -137,7 +282,7 @@ void runInfo(const InfoArguments& args) {
   if (args.query) {
     naming(input.name(), [&] { printQuery(args, input.name(), decoder); });
   } else if (args.json) {
-    std::cout << toJson(decoder.info()).dump(2) << '\n';
+    std::cout << text(toJson(decoder.info())) << '\n';
   } else {
     printText(input.name(), decoder.info());
   }

@@ -1,30 +1,50 @@
 #include "cli/model_files.h"
 
 #include <optional>
+#include <utility>
 
 #include "bspc/error.h"
 #include "cli/input_file.h"
 #include "cli/naming.h"
 #include "cli/usage_error.h"
+#include "formats/array_tuples.h"
+#include "formats/wording.h"
 
 namespace bspc::cli {
 
 namespace {
 
+std::string lowerCaseEnding(const std::string& path) {
+  const std::size_t dot = path.rfind('.');
+  return dot == std::string::npos ? "" : formats::lowerCase(path.substr(dot + 1));
+}
+
 std::optional<formats::Format> formatOf(const std::string& name, const std::string& path) {
   return formats::formatFromPath(name.empty() ? path : "." + name);
 }
 
-void refuseOtherContent(const std::string& name, const std::vector<std::string>& content) {
+/// Names what a file has that nobody allowed to leave out.
+void refuseContent(const std::string& name, const ContentArguments& args,
+                   const std::vector<formats::OtherContent>& content) {
+  if (args.positionsOnly || args.dropOther) return;
   std::string list;
   constexpr std::size_t kNamed = 6;
-  for (std::size_t i = 0; i < content.size() && i < kNamed; ++i) {
-    list += (i > 0 ? ", " : "") + content[i];
+  std::size_t named = 0;
+  bool onlyFaces = true;
+  for (const formats::OtherContent& item : content) {
+    const bool isFaces = item.kind == formats::OtherContent::Kind::Connectivity;
+    if (isFaces && args.noFaces) continue;
+    onlyFaces = onlyFaces && isFaces;
+    if (named < kNamed) list += (named > 0 ? ", " : "") + item.phrase;
+    if (named == kNamed) list += ", …";
+    ++named;
   }
-  if (content.size() > kNamed) list += ", …";
+  if (named == 0) return;
   throw Error(ErrorCode::Unsupported,
-              name + ": has more than positions (" + list +
-                  "), which this version cannot store; use --positions-only to leave it out");
+              name + ": has more than points and their arrays (" + list +
+                  "), which this version cannot store; " +
+                  (onlyFaces ? "--no-faces" : "--drop-other") +
+                  " leaves that out, --positions-only everything but positions");
 }
 
 }  // namespace
@@ -36,14 +56,14 @@ formats::Format chooseInputFormat(const std::string& name, const std::string& pa
 }
 
 formats::Format chooseOutputFormat(const std::string& name, const std::string& path) {
-  const std::string known = "--to ply, obj, off, xyz or csv";
-  const auto format = formatOf(name, path);
-  if (!format) {
-    throw UsageError(path + ": cannot tell the format from the name; say it with " + known);
+  if (lowerCaseEnding(name.empty() ? path : "." + name) == "laz") {
+    throw UsageError(path +
+                     ": LAZ files are not written; write LAS and compress it, for example "
+                     "by laszip or pdal translate");
   }
-  if (formats::isWritable(*format)) return *format;
-  throw UsageError(path + ": files of this format are read but not written; write another with " +
-                   known);
+  if (const auto format = formatOf(name, path)) return *format;
+  throw UsageError(path + ": cannot tell the format from the name; say it with --to " +
+                   "ply, obj, off, xyz, csv, las or pcd");
 }
 
 namespace {
@@ -61,34 +81,49 @@ auto namingModel(const std::string& name, Work work) {
 }  // namespace
 
 formats::Model readModelFile(const std::string& path, const std::string& formatName,
-                             bool positionsOnly, const ProgressCallback& progress) {
+                             const ProgressCallback& progress) {
   const formats::Format format = chooseInputFormat(formatName, path);
   InputFile input(path);
-  formats::Model model = namingModel(
-      input.name(), [&] { return formats::readModel(input.stream(), format, progress); });
-  if (!positionsOnly && !model.otherContent.empty()) {
-    refuseOtherContent(input.name(), model.otherContent);
-  }
-  return model;
+  return namingModel(input.name(),
+                     [&] { return formats::readModel(input.stream(), format, progress); });
 }
 
-ModelPoints::ModelPoints(const std::string& path, const std::string& formatName, bool positionsOnly,
-                         const ProgressCallback& progress)
-    : format_(chooseInputFormat(formatName, path)), input_(path), positionsOnly_(positionsOnly) {
+ModelPoints::ModelPoints(const std::string& path, const std::string& formatName,
+                         const ContentArguments& content, const ProgressCallback& progress)
+    : format_(chooseInputFormat(formatName, path)), input_(path), content_(content) {
   stream_ = namingModel(
       input_.name(), [&] { return formats::openPointStream(input_.stream(), format_, progress); });
   refuseOther();
+  if (!content.positionsOnly) chooseFrom(stream_->info().arrays);
+}
+
+void ModelPoints::chooseFrom(const std::vector<ArrayDescription>& arrays) {
+  std::vector<ArrayDescription> described = arrays;
+  try {
+    chosen_ = chooseArrays(content_.arrays, described);
+  } catch (const UsageError& error) {
+    throw UsageError(input_.name() + ": " + error.what());
+  }
+  for (const std::size_t a : chosen_) arrays_.push_back(described[a]);
+  all_ = formats::emptyArrays(arrays);
 }
 
 void ModelPoints::refuseOther() const {
-  const std::vector<std::string>& content = stream_->info().otherContent;
-  if (!positionsOnly_ && !content.empty()) refuseOtherContent(input_.name(), content);
+  refuseContent(input_.name(), content_, stream_->info().otherContent);
 }
 
-std::size_t ModelPoints::read(std::uint8_t* xyz, Span<ArrayValues> /*values*/, std::size_t count) {
+Metadata ModelPoints::metadata() const {
+  Metadata metadata;
+  if (!content_.positionsOnly) metadata = stream_->info().metadata;
+  if (!content_.crs.empty()) metadata.crs = content_.crs;
+  return metadata;
+}
+
+std::size_t ModelPoints::read(std::uint8_t* xyz, Span<ArrayValues> values, std::size_t count) {
   if (ended_) return 0;
   try {
-    const std::size_t got = namingModel(input_.name(), [&] { return stream_->read(xyz, count); });
+    const std::size_t got =
+        namingModel(input_.name(), [&] { return readChosen(xyz, values, count); });
     ended_ = got < count;
     if (ended_) refuseOther();
     return got;
@@ -96,6 +131,26 @@ std::size_t ModelPoints::read(std::uint8_t* xyz, Span<ArrayValues> /*values*/, s
     // The encoder that asks for points would put the name in front once more.
     throw NamedError(error.code(), error.what());
   }
+}
+
+/// The file's arrays are read together; those that are kept lend their memory for it.
+std::size_t ModelPoints::readChosen(std::uint8_t* xyz, Span<ArrayValues> values,
+                                    std::size_t count) {
+  if (chosen_.empty()) return stream_->read(xyz, {}, count);
+  const auto exchange = [&] {
+    for (std::size_t a = 0; a < chosen_.size(); ++a) {
+      std::swap(all_[chosen_[a]].values, values[a].values);
+      std::swap(all_[chosen_[a]].strings, values[a].strings);
+    }
+  };
+  exchange();
+  const std::size_t got = stream_->read(xyz, all_, count);
+  exchange();
+  for (ArrayValues& array : all_) {
+    array.values.clear();
+    array.strings.clear();
+  }
+  return got;
 }
 
 }  // namespace bspc::cli

@@ -19,6 +19,8 @@ class OutputFile {
   OutputFile& operator=(const OutputFile&) = delete;
 
   std::ostream& stream();
+  /// Whether it is a file of its own, in which one can go back; no pipe, no device.
+  bool isFile() const { return !temporary_.empty(); }
   /// How to call it in messages.
   std::string name() const { return standardOutput_ ? "standard output" : path_; }
   /// Puts the file in its place. Throws Error(Io).

@@ -42,6 +42,25 @@ std::string rounded(double value) {
   return buffer.data();
 }
 
+std::string oneLine(const std::string& text, std::size_t longest) {
+  const bool isCut = text.size() > longest;
+  std::string line = text.substr(0, longest);
+  // No half of a character at the end: its later bytes are 10xxxxxx.
+  while (isCut && !line.empty() &&
+         (static_cast<unsigned char>(text[line.size()]) & 0xC0U) == 0x80U) {
+    line.pop_back();
+  }
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(line[i]);
+    const auto next = static_cast<unsigned char>(i + 1 < line.size() ? line[i + 1] : 0);
+    // U+0080 to U+009F are control characters too.
+    const bool isLong = byte == 0xC2 && next >= 0x80 && next <= 0x9F;
+    if (byte < ' ' || byte == 127 || isLong) line[i] = ' ';
+    if (isLong) line[i + 1] = ' ';
+  }
+  return line + (isCut ? "..." : "");
+}
+
 std::string errorText(bool exact, const std::array<double, 3>& maxError) {
   if (exact) return "exact";
   std::array<char, 64> buffer{};
@@ -51,6 +70,9 @@ std::string errorText(bool exact, const std::array<double, 3>& maxError) {
 }
 
 std::string gridText(const Grid& grid) {
+  if (grid.form == Grid::Form::FloatBits) {
+    return std::string("every bit of ") + scalarName(grid.scalarType);
+  }
   const bool shared = grid.step(0) == grid.step(1) && grid.step(0) == grid.step(2);
   std::string text = "step " + shortest(grid.step(0));
   if (!shared) text += ", " + shortest(grid.step(1)) + ", " + shortest(grid.step(2));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -17,9 +18,11 @@ std::string shortest(double value);
 std::string coordinateText(const Grid& grid, double value);
 /// Six significant digits.
 std::string rounded(double value);
+/// Text that a file brings, as one line without control characters and of at most `longest` bytes.
+std::string oneLine(const std::string& text, std::size_t longest);
 /// "exact", or "greatest error 0.0005 (x), …" with the largest over the axes.
 std::string errorText(bool exact, const std::array<double, 3>& maxError);
-/// One line: "step 0.01 from (1, 2, 3), float64".
+/// One line: "step 0.01 from (1, 2, 3), float64", "every bit of float32".
 std::string gridText(const Grid& grid);
 
 }  // namespace bspc::cli

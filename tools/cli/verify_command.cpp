@@ -1,18 +1,26 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <iostream>
 #include <memory>
+#include <numeric>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "bspc/decoder.h"
 #include "bspc/error.h"
+#include "cli/array_comparison.h"
 #include "cli/commands.h"
 #include "cli/input_file.h"
 #include "cli/model_files.h"
 #include "cli/naming.h"
 #include "cli/nearest_distance.h"
 #include "cli/progress_bar.h"
+#include "cli/restored_points.h"
 #include "cli/text.h"
+#include "formats/wording.h"
 
 namespace bspc::cli {
 
@@ -30,8 +38,52 @@ struct VerifyArguments {
 
 formats::Model readOriginal(const VerifyArguments& args) {
   ProgressBar bar("reading", args.quiet);
-  return readModelFile(args.against, args.from, true, bar.callback());
+  return readModelFile(args.against, args.from, bar.callback());
 }
+
+/// Coordinates as an array, where grid points do not tell all their bits.
+ArrayValues coordinatesArray(ScalarType type) {
+  ArrayValues coordinates;
+  coordinates.name = "of coordinates";
+  coordinates.type = type;
+  coordinates.components = 3;
+  return coordinates;
+}
+
+/// Everything that the file holds, in its order.
+struct Restored {
+  explicit Restored(const FileInfo& info) : info_(info) {
+    coordinates = coordinatesArray(info.grid.scalarType);
+  }
+
+  std::vector<GridPoint> points;
+  std::vector<ArrayValues> arrays;
+  ArrayValues coordinates;  ///< empty unless the grid is one of the bits of floats
+
+  void append(DecodedPoints&& tile) {
+    if (info_.grid.form == Grid::Form::FloatBits) {
+      const RestoredPoints restored(info_, tile);
+      const PointSetView view = restored.view();
+      const auto* bytes = static_cast<const std::uint8_t*>(view.data());
+      coordinates.values.insert(coordinates.values.end(), bytes,
+                                bytes + view.size() * view.strideBytes());
+    }
+    points.insert(points.end(), tile.points.begin(), tile.points.end());
+    if (arrays.empty()) {
+      arrays = std::move(tile.arrays);
+      return;
+    }
+    for (std::size_t a = 0; a < arrays.size(); ++a) {
+      ArrayValues& to = arrays[a];
+      const ArrayValues& from = tile.arrays[a];
+      to.values.insert(to.values.end(), from.values.begin(), from.values.end());
+      to.strings.insert(to.strings.end(), from.strings.begin(), from.strings.end());
+    }
+  }
+
+ private:
+  const FileInfo& info_;
+};
 
 /// A lossy file holds as many points as the original, but not the same.
 std::string distanceText(const VerifyArguments& args, const Grid& grid,
@@ -60,9 +112,20 @@ std::string distanceText(const VerifyArguments& args, const Grid& grid,
          shortest(greatestDistanceToNearest(given, std::move(restored))) + " from one of these";
 }
 
-/// Puts the original on the file's grid and compares the multisets of grid points.
-GridFit compare(const VerifyArguments& args, const FileInfo& info, std::vector<GridPoint> points) {
-  const formats::Model original = readOriginal(args);
+[[noreturn]] void failPoints(const VerifyArguments& args, std::uint64_t held, std::uint64_t given,
+                             std::uint64_t missing) {
+  throw Error(ErrorCode::Corrupt,
+              args.input + ": does not hold the points of " + args.against + ": " +
+                  withCommas(held) + " points against " + withCommas(given) + ", " +
+                  withCommas(missing) +
+                  " of the original's are not there; --lossy tells how far the points of a file "
+                  "that was coded with lossy stops are");
+}
+
+/// Puts the original on the file's grid, counted from the file's own corner, and compares the
+/// multisets of grid points.
+GridFit fitOriginal(const VerifyArguments& args, const FileInfo& info,
+                    const formats::Model& original, std::vector<GridPoint> points) {
   GridRequest request = GridRequest::onGrid(info.grid);
   request.dropNonFinite = args.dropNonFinite;
   GridFit fit = naming(args.against, [&] { return fitGrid(original.view(), request); });
@@ -79,27 +142,173 @@ GridFit compare(const VerifyArguments& args, const FileInfo& info, std::vector<G
     }
     outside += inside ? 0 : 1;
   }
-  std::sort(fit.points.begin(), fit.points.end());
+  std::vector<GridPoint> given = fit.points;
+  std::sort(given.begin(), given.end());
   std::sort(points.begin(), points.end());
-  if (outside > 0 || fit.points != points) {
+  if (outside > 0 || given != points) {
     std::vector<GridPoint> missing;
-    std::set_difference(fit.points.begin(), fit.points.end(), points.begin(), points.end(),
+    std::set_difference(given.begin(), given.end(), points.begin(), points.end(),
                         std::back_inserter(missing));
-    throw Error(ErrorCode::Corrupt,
-                args.input + ": does not hold the points of " + args.against + ": " +
-                    withCommas(points.size()) + " points against " + withCommas(fit.points.size()) +
-                    ", " + withCommas(std::max<std::uint64_t>(outside, missing.size())) +
-                    " of the original's are not there; --lossy tells how far the points of a file "
-                    "that was coded with lossy stops are");
+    failPoints(args, points.size(), given.size(), std::max<std::uint64_t>(outside, missing.size()));
   }
   return fit;
+}
+
+/// An array of the original as it was, without the points that were dropped.
+ArrayValues keptTuples(const ArrayValues& array, const GridFit& fit) {
+  if (fit.sourceIndex.empty()) return array;
+  ArrayValues kept;
+  static_cast<ArrayDescription&>(kept) = array;
+  const std::size_t bytes = array.components * arrayValueSize(array.type);
+  for (const std::uint64_t i : fit.sourceIndex) {
+    if (array.type == ScalarType::String) {
+      const auto first = array.strings.begin() + static_cast<std::ptrdiff_t>(i * array.components);
+      kept.strings.insert(kept.strings.end(), first, first + array.components);
+    } else {
+      const auto first = array.values.begin() + static_cast<std::ptrdiff_t>(i * bytes);
+      kept.values.insert(kept.values.end(), first, first + static_cast<std::ptrdiff_t>(bytes));
+    }
+  }
+  return kept;
+}
+
+/// What is compared of a file and its original: the arrays that both have.
+class ArrayCheck {
+ public:
+  ArrayCheck(const VerifyArguments& args, const FileInfo& info, const formats::Model& original,
+             const GridFit& fit, const Restored& restored)
+      : args_(args), info_(info), original_(original), fit_(fit), restored_(restored) {
+    for (const ArrayValues& array : restored.arrays) pair(array);
+    if (info.grid.form != Grid::Form::FloatBits || restored.points.empty()) return;
+    ArrayValues given = coordinatesArray(original.type);
+    given.values = original.positions;
+    if (original.type != info.grid.scalarType) {
+      fail(std::string("its coordinates are ") + scalarName(original.type));
+    }
+    kept_.push_back(keptTuples(given, fit));
+    held_.arrays.push_back(restored.coordinates.view());
+    hasCoordinates_ = true;
+  }
+
+  /// Throws Error(Corrupt) if arrays differ by more than they may.
+  std::string run() {
+    if (info_.keepsOrder) requireOrder();
+    const ArrayComparison result = compareArrays(given_, held_, partners());
+    if (result.mismatch) {
+      const std::uint64_t point = result.mismatch->point;
+      const std::uint64_t index = fit_.sourceIndex.empty() ? point : fit_.sourceIndex[point];
+      fail("the array " + oneLine(held_.arrays[result.mismatch->array].name, 40) +
+           " differs at point " + withCommas(index) + " of the original, counted from 0");
+    }
+    return text(result);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const {
+    throw Error(ErrorCode::Corrupt,
+                args_.input + ": does not hold the arrays of " + args_.against + ": " + what);
+  }
+
+  void pair(const ArrayValues& array) {
+    if (array.semantic == Semantic::Ids && array.name == "OriginalPointIds" &&
+        array.type == ScalarType::UInt64 && array.components == 1) {
+      ids_ = &array;
+      return;
+    }
+    const auto& values = original_.values;
+    const auto found = std::find_if(values.begin(), values.end(),
+                                    [&](const ArrayValues& v) { return v.name == array.name; });
+    if (found == values.end()) fail("it has no array " + oneLine(array.name, 40));
+    if (found->type != array.type || found->components != array.components) {
+      fail(oneLine(array.name, 40) + " is there " + std::to_string(found->components) + " x " +
+           scalarName(found->type) + " instead of " + std::to_string(array.components) + " x " +
+           scalarName(array.type));
+    }
+    kept_.push_back(keptTuples(*found, fit_));
+    kept_.back().tolerance = array.tolerance;
+    held_.arrays.push_back(array.view());
+  }
+
+  void requireOrder() const {
+    for (std::size_t i = 0; i < fit_.points.size(); ++i) {
+      if (fit_.points[i] == restored_.points[i]) continue;
+      fail("point " + withCommas(i) + " is not in its place, though the file keeps the order");
+    }
+  }
+
+  /// Who is who, where the file says so.
+  std::optional<std::vector<std::uint64_t>> partners() {
+    for (const ArrayValues& array : kept_) given_.arrays.push_back(array.view());
+    given_.points = fit_.points;
+    held_.points = restored_.points;
+    const std::size_t count = restored_.points.size();
+    std::vector<std::uint64_t> partners(count);
+    if (info_.keepsOrder) {
+      std::iota(partners.begin(), partners.end(), std::uint64_t{0});
+      return partners;
+    }
+    if (ids_ == nullptr) return std::nullopt;
+    std::memcpy(partners.data(), ids_->values.data(), count * sizeof(std::uint64_t));
+    for (std::size_t j = 0; j < count; ++j) {
+      const auto place =
+          std::lower_bound(fit_.sourceIndex.begin(), fit_.sourceIndex.end(), partners[j]);
+      if (!fit_.sourceIndex.empty()) {
+        const bool isThere = place != fit_.sourceIndex.end() && *place == partners[j];
+        partners[j] = isThere ? static_cast<std::uint64_t>(place - fit_.sourceIndex.begin())
+                              : fit_.points.size();
+      }
+      if (partners[j] < fit_.points.size() && fit_.points[partners[j]] == restored_.points[j]) {
+        continue;
+      }
+      fail("OriginalPointIds name another point than the one that they belong to");
+    }
+    return partners;
+  }
+
+  std::string text(const ArrayComparison& result) const {
+    std::string text;
+    const std::size_t arrays = held_.arrays.size() - (hasCoordinates_ ? 1 : 0);
+    if (arrays > 0) {
+      text += " with " + formats::counted(arrays, "array", "arrays");
+      if (arrays < original_.values.size()) {
+        text += " of " + withCommas(original_.values.size());
+      }
+    }
+    if (info_.keepsOrder) text += " in their order";
+    for (std::size_t a = 0; a < held_.arrays.size(); ++a) {
+      if (result.greatestErrors[a] == 0) continue;
+      text +=
+          ", " + oneLine(held_.arrays[a].name, 40) + " within " + rounded(result.greatestErrors[a]);
+    }
+    return text;
+  }
+
+  const VerifyArguments& args_;
+  const FileInfo& info_;
+  const formats::Model& original_;
+  const GridFit& fit_;
+  const Restored& restored_;
+  const ArrayValues* ids_ = nullptr;
+  /// Whether the last array is that of the coordinates.
+  bool hasCoordinates_ = false;
+  std::vector<ArrayValues> kept_;
+  PointTable given_;
+  PointTable held_;
+};
+
+std::string comparisonText(const VerifyArguments& args, const FileInfo& info,
+                           const Restored& restored) {
+  const formats::Model original = readOriginal(args);
+  const GridFit fit = fitOriginal(args, info, original, restored.points);
+  const std::string arrays = ArrayCheck(args, info, original, fit, restored).run();
+  return ", those of " + args.against + arrays + ", " + errorText(fit.exact, fit.maxError);
 }
 
 void runVerify(const VerifyArguments& args) {
   InputFile input(args.input);
   Decoder decoder = naming(input.name(), [&] { return Decoder(input.source()); });
   std::uint64_t count = 0;
-  std::vector<GridPoint> points;
+  Restored restored(decoder.info());
   {
     ProgressBar bar("verifying", args.quiet);
     DecodeOptions options;
@@ -108,17 +317,19 @@ void runVerify(const VerifyArguments& args) {
     naming(input.name(), [&] {
       decoder.decodeTiles(options, [&](DecodedPoints&& tile) {
         count += tile.points.size();
-        if (args.against.empty()) return;
-        points.insert(points.end(), tile.points.begin(), tile.points.end());
+        if (!args.against.empty()) restored.append(std::move(tile));
       });
     });
   }
+  const FileInfo& info = decoder.info();
   std::string result = "every checksum holds, " + withCommas(count) + " points";
+  if (!info.arrays.empty()) {
+    result += " with " + formats::counted(info.arrays.size(), "array", "arrays");
+  }
   if (args.lossy) {
-    result += distanceText(args, decoder.info().grid, points);
+    result += distanceText(args, info.grid, restored.points);
   } else if (!args.against.empty()) {
-    const GridFit fit = compare(args, decoder.info(), std::move(points));
-    result += ", those of " + args.against + ", " + errorText(fit.exact, fit.maxError);
+    result += comparisonText(args, info, restored);
   }
   if (!args.quiet) std::cout << input.name() << ": " << result << '\n';
 }
@@ -149,7 +360,7 @@ void addVerifyCommand(CLI::App& app) {
   command->footer(
       "Examples:\n"
       "  bspc verify scan.bspc\n"
-      "  bspc verify scan.bspc --against scan.ply   also says how exact the points are");
+      "  bspc verify scan.bspc --against scan.ply   compares points and arrays too");
 }
 
 }  // namespace bspc::cli

@@ -35,6 +35,17 @@ InputBuffer::InputBuffer(std::istream& in, ProgressCallback progress)
     : in_(in), progress_(std::move(progress)), buffer_(kBlock) {
   if (!in) throw FormatError("cannot be read: the input stream has failed");
   streamBytes_ = bytesToEnd(in);
+  start_ = in.tellg();
+  canSeek_ = start_ != std::istream::pos_type(-1);
+  in.clear();
+}
+
+void InputBuffer::seek(std::uint64_t offset) {
+  in_.clear();
+  in_.seekg(start_ + static_cast<std::istream::off_type>(offset));
+  if (!canSeek_ || !in_) throw FormatError("cannot be read: the input stream cannot go back");
+  begin_ = end_ = 0;
+  offset_ = offset;
 }
 
 std::size_t InputBuffer::readStream(char* to, std::size_t count) {

@@ -41,6 +41,11 @@ class InputBuffer {
   /// Passes over up to `count` bytes; fewer only at the end of the stream.
   std::uint64_t skip(std::uint64_t count);
 
+  /// Whether the stream can go back, as files can and pipes cannot.
+  bool canSeek() const { return canSeek_; }
+  /// Goes back to the byte of this offset. Throws FormatError if the stream cannot.
+  void seek(std::uint64_t offset);
+
   /// How many items of at least `bytes` each there is memory to be set aside for, if a header
   /// claims `claimed` of them: never more than the stream can hold, 0 if that is not known.
   std::size_t reservable(std::uint64_t claimed, std::size_t bytes) const;
@@ -55,7 +60,10 @@ class InputBuffer {
   std::size_t begin_ = 0;
   std::size_t end_ = 0;
   std::uint64_t offset_ = 0;
+  /// From the start to the end; 0 if that is not known.
   std::uint64_t streamBytes_ = 0;
+  bool canSeek_ = false;
+  std::istream::pos_type start_ = 0;
 };
 
 }  // namespace bspc::formats

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <string_view>
 #include <utility>
 
+#include "formats/las_point.h"
+#include "formats/las_records.h"
 #include "formats/little_endian.h"
-#include "formats/model.h"
+#include "formats/number_text.h"
 #include "formats/wording.h"
 
 namespace bspc::formats {
@@ -16,7 +19,8 @@ namespace {
 constexpr std::size_t kLeastHeader = 227;
 constexpr std::size_t kLeastHeader14 = 375;
 constexpr std::size_t kRecordHead = 54;
-constexpr std::size_t kExtraAttribute = 192;
+/// Bytes in front of the points that nobody declares are kept up to this size.
+constexpr std::uint64_t kMostGap = 1 << 16;
 
 [[noreturn]] void fail(const std::string& what, std::uint64_t byte) {
   throw FormatError(what + " (byte " + grouped(byte) + ")");
@@ -27,28 +31,25 @@ std::string_view fixedText(const char* field, std::size_t bytes) {
   return {field, static_cast<std::size_t>(std::find(field, field + bytes, '\0') - field)};
 }
 
-/// Which groups of attributes a point format has.
-struct PointFormat {
-  std::size_t bytes;
-  bool time;
-  bool colours;
-  bool infrared;
-  bool waveform;
-};
+std::string threeNumbers(const std::array<double, 3>& numbers) {
+  std::string text;
+  for (const double number : numbers) {
+    if (!text.empty()) text += ' ';
+    appendNumber(text, number);
+  }
+  return text;
+}
 
-constexpr std::array<PointFormat, 11> kPointFormats{{
-    {20, false, false, false, false},
-    {28, true, false, false, false},
-    {26, false, true, false, false},
-    {34, true, true, false, false},
-    {57, true, false, false, true},
-    {63, true, true, false, true},
-    {30, true, false, false, false},
-    {36, true, true, false, false},
-    {38, true, true, true, false},
-    {59, true, false, false, true},
-    {67, true, true, true, true},
-}};
+std::string hexOf(std::string_view bytes) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text;
+  for (const char c : bytes) {
+    const auto byte = static_cast<unsigned char>(c);
+    text += kDigits[byte >> 4];
+    text += kDigits[byte & 15U];
+  }
+  return text;
+}
 
 class HeaderReader {
  public:
@@ -64,7 +65,9 @@ class HeaderReader {
     readPointFormat();
     readCount();
     readScales();
+    keepHeader();
     readPlaceOfPoints();
+    nameOtherContent();
     return std::move(header_);
   }
 
@@ -94,23 +97,25 @@ class HeaderReader {
           "by las2las -i in.laz -o out.las or pdal translate in.laz out.las",
           104);
     }
-    if (format >= kPointFormats.size()) {
+    if (format >= kLasPointFormats) {
       fail("point format " + std::to_string(format) + " is not known; expected 0 to 10", 104);
     }
     header_.pointFormat = format;
     header_.recordBytes = loadUInt16(at(105));
-    if (header_.recordBytes < kPointFormats[format].bytes) {
+    if (header_.recordBytes < lasRecordBytes(format)) {
       fail("points of " + std::to_string(header_.recordBytes) +
                " bytes are too short for point format " + std::to_string(format) +
-               ", which takes " + std::to_string(kPointFormats[format].bytes),
+               ", which takes " + std::to_string(lasRecordBytes(format)),
            105);
     }
   }
 
   void readCount() {
     header_.points = loadUInt32(at(107));
-    const bool hasWaveforms = kPointFormats[header_.pointFormat].waveform;
-    header_.hasWaveforms = header_.minorVersion >= 3 && hasWaveforms;
+    // The second bit of the global encoding says that waveforms follow the points.
+    const bool within = (static_cast<unsigned char>(*at(6)) & 2U) != 0;
+    header_.hasWaveforms =
+        within && header_.minorVersion >= 3 && lasHasWaveforms(header_.pointFormat);
     if (header_.minorVersion < 4) return;
     requireBytes(kLeastHeader14);
     header_.extendedRecords = loadUInt32(at(243));
@@ -133,6 +138,26 @@ class HeaderReader {
     }
   }
 
+  void keep(const char* key, const std::string& text) {
+    if (!text.empty()) header_.metadata.entries.emplace_back(key, text);
+  }
+
+  void keepHeader() {
+    const auto number = [&](std::size_t byte) { return std::to_string(loadUInt16(at(byte))); };
+    keep("las.version", "1." + std::to_string(header_.minorVersion));
+    keep("las.point_format", std::to_string(header_.pointFormat));
+    keep("las.scale", threeNumbers(header_.scale));
+    keep("las.offset", threeNumbers(header_.offset));
+    keep("las.system_identifier", utf8(fixedText(at(26), 32)));
+    keep("las.generating_software", utf8(fixedText(at(58), 32)));
+    if (loadUInt32(at(90)) != 0) keep("las.creation", number(90) + " " + number(92));
+    // Both places were reserved in versions before.
+    if (loadUInt16(at(4)) != 0) keep("las.file_source_id", number(4));
+    if (loadUInt16(at(6)) != 0) keep("las.global_encoding", number(6));
+    const std::string_view guid(at(8), 16);
+    if (guid.find_first_not_of('\0') != std::string_view::npos) keep("las.guid", hexOf(guid));
+  }
+
   void readPlaceOfPoints() {
     const std::size_t headerBytes = loadUInt16(at(94));
     const std::size_t points = loadUInt32(at(96));
@@ -150,9 +175,7 @@ class HeaderReader {
     }
     skip(headerBytes);
     readRecords(records, points);
-    namePointAttributes();
-    nameRecords(points - in_.offset());
-    skip(points - in_.offset());
+    readGap(points - in_.offset());
   }
 
   void skip(std::uint64_t bytes) {
@@ -162,88 +185,61 @@ class HeaderReader {
   /// The records between header and points. A record that does not fit there ends them: what is
   /// left then counts as bytes of the writer's own, which the format allows.
   void readRecords(std::uint32_t count, std::uint64_t points) {
+    std::vector<LasRecord> records;
     for (std::uint32_t i = 0; i < count && points - in_.offset() >= kRecordHead; ++i) {
       if (!in_.ensure(kRecordHead)) skip(kRecordHead);
-      const std::string user(fixedText(in_.data() + 2, 16));
-      const unsigned id = loadUInt16(in_.data() + 18);
+      LasRecord record;
+      record.user = fixedText(in_.data() + 2, 16);
+      record.id = loadUInt16(in_.data() + 18);
+      record.description = fixedText(in_.data() + 22, 32);
       const std::size_t bytes = loadUInt16(in_.data() + 20);
-      if (points - in_.offset() - kRecordHead < bytes) return;
+      if (points - in_.offset() - kRecordHead < bytes) break;
       skip(kRecordHead);
-      if (user == "LASF_Spec" && id == 4) {
-        readExtraAttributes(bytes);
-        continue;
+      record.payload = take(bytes);
+      if (record.is(kLasSpecification, kLasExtraDescriptions)) {
+        header_.extraDescriptions = record.payload;
       }
-      skip(bytes);
-      const auto found = std::find_if(records_.begin(), records_.end(),
-                                      [&](const auto& entry) { return entry.first == user; });
-      if (found == records_.end()) {
-        records_.emplace_back(user, 1);
-      } else {
-        ++found->second;
-      }
+      records.push_back(std::move(record));
     }
+    keepLasRecords(records, header_.metadata);
   }
 
-  /// The record that describes bytes of a point beyond those of its format.
-  void readExtraAttributes(std::size_t bytes) {
-    constexpr std::array<ScalarType, 10> kTypes{
-        ScalarType::UInt8,   ScalarType::Int8,   ScalarType::UInt16, ScalarType::Int16,
-        ScalarType::UInt32,  ScalarType::Int32,  ScalarType::UInt64, ScalarType::Int64,
-        ScalarType::Float32, ScalarType::Float64};
-    for (; bytes >= kExtraAttribute; bytes -= kExtraAttribute) {
-      if (!in_.ensure(kExtraAttribute)) break;
-      const auto type = static_cast<unsigned char>(*(in_.data() + 2));
-      const std::string_view name = fixedText(in_.data() + 4, 32);
-      const bool isScalar = type >= 1 && type <= kTypes.size();
-      extras_.push_back("point attribute " + quoted(name) +
-                        (isScalar ? std::string(" (") + scalarName(kTypes[type - 1U]) + ")" : ""));
-      skip(kExtraAttribute);
-    }
-    skip(bytes);
+  Bytes take(std::size_t bytes) {
+    if (!in_.ensure(bytes)) skip(bytes);
+    const Bytes taken(in_.data(), in_.data() + bytes);
+    in_.consume(bytes);
+    return taken;
   }
 
-  void namePointAttributes() {
-    if (header_.points == 0) return;
-    std::vector<std::string>& content = header_.otherContent;
-    const PointFormat& format = kPointFormats[header_.pointFormat];
-    content.emplace_back("point attribute \"intensity\" (uint16)");
-    content.emplace_back("return numbers and flags");
-    content.emplace_back("point attribute \"classification\" (uint8)");
-    if (format.colours) content.emplace_back("colours (uint16)");
-    if (format.infrared) content.emplace_back("point attribute \"near infrared\" (uint16)");
-    if (format.time) content.emplace_back("point attribute \"GPS time\" (float64)");
-    content.emplace_back(header_.pointFormat < 6 ? "point attribute \"scan angle\" (int8)"
-                                                 : "point attribute \"scan angle\" (int16)");
-    content.emplace_back("point attribute \"user data\" (uint8)");
-    content.emplace_back("point attribute \"point source ID\" (uint16)");
-    if (format.waveform) content.emplace_back("waveforms");
-    const std::size_t extra = header_.recordBytes - format.bytes;
-    if (extra == 0) return;
-    if (extras_.empty()) {
-      content.push_back(counted(extra, "extra byte", "extra bytes") + " a point");
-    }
-    content.insert(content.end(), extras_.begin(), extras_.end());
-  }
-
-  void nameRecords(std::uint64_t bytesLeft) {
-    std::vector<std::string>& content = header_.otherContent;
-    for (const auto& [user, count] : records_) {
-      content.push_back(counted(count, "record ", "records ") + quoted(user));
-    }
+  /// Bytes between records and points, of which nobody says what they are.
+  void readGap(std::uint64_t bytes) {
     // Two bytes mark the start of the points in version 1.0.
-    if (bytesLeft > (header_.minorVersion == 0 ? 2U : 0U)) {
-      content.push_back(counted(bytesLeft, "byte", "bytes") + " in front of the points");
+    const bool isMark = header_.minorVersion == 0 && bytes == 2;
+    if (bytes == 0 || isMark || bytes > kMostGap) {
+      if (bytes > kMostGap) {
+        header_.otherContent.push_back({counted(bytes, "byte", "bytes") + " in front of the points",
+                                        OtherContent::Kind::Rest});
+      }
+      return skip(bytes);
     }
+    ArrayValues gap;
+    gap.name = "las.gap";
+    gap.type = ScalarType::UInt8;
+    gap.values = take(static_cast<std::size_t>(bytes));
+    header_.metadata.fieldData.push_back(std::move(gap));
+  }
+
+  void nameOtherContent() {
+    std::vector<OtherContent>& content = header_.otherContent;
     if (header_.extendedRecords > 0) {
-      content.push_back(counted(header_.extendedRecords, "extended record", "extended records"));
+      content.push_back({counted(header_.extendedRecords, "extended record", "extended records"),
+                         OtherContent::Kind::Rest});
     }
+    if (header_.hasWaveforms) content.push_back({"waveforms", OtherContent::Kind::Rest});
   }
 
   InputBuffer& in_;
   LasHeader header_;
-  /// Users of records, and how many records each has.
-  std::vector<std::pair<std::string, std::uint64_t>> records_;
-  std::vector<std::string> extras_;
 };
 
 }  // namespace

@@ -3,10 +3,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <string>
 #include <vector>
 
+#include "bspc/arrays.h"
 #include "formats/input_buffer.h"
+#include "formats/model.h"
 
 namespace bspc::formats {
 
@@ -21,12 +22,16 @@ struct LasHeader {
   /// A coordinate is X * scale + offset of a whole number X.
   std::array<double, 3> scale{};
   std::array<double, 3> offset{};
-  /// Whether something is declared to follow the points, beside extended records.
-  bool hasWaveforms = false;
+  /// Extended records behind the points.
   std::uint64_t extendedRecords = 0;
-  /// What the points have beside positions, and what stands between header and points, as phrases
-  /// for ModelInfo::otherContent.
-  std::vector<std::string> otherContent;
+  /// Whether the file is said to have waveforms behind the points.
+  bool hasWaveforms = false;
+  /// The descriptions of extra bytes, one behind the other.
+  Bytes extraDescriptions;
+  /// What the header and the records behind it say.
+  Metadata metadata;
+  /// What nothing of the above holds.
+  std::vector<OtherContent> otherContent;
 };
 
 /// Reads up to the first point, where the input is left. Throws FormatError.

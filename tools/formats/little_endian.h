@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <cstring>
 
 #include "formats/scalar_convert.h"
 #include "formats/scalar_visit.h"
@@ -13,6 +15,14 @@ T loadLittleEndian(const void* from, ScalarType type) {
   T value{};
   convertScalars({from, type, 0, !hostIsLittleEndian()}, {&value, type, 0}, 1);
   return value;
+}
+
+/// Stores a number at an address of any alignment, least byte first.
+template <class T>
+void storeLittleEndian(void* to, T value) {
+  std::memcpy(to, &value, sizeof(T));
+  auto* const bytes = static_cast<unsigned char*>(to);
+  if (!hostIsLittleEndian()) std::reverse(bytes, bytes + sizeof(T));
 }
 
 inline std::uint16_t loadUInt16(const void* from) {

@@ -1,16 +1,16 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "bspc/arrays.h"
 #include "bspc/grid.h"
 #include "bspc/point_set.h"
 #include "bspc/scalar_type.h"
-#include "bspc/span.h"
 
 namespace bspc::formats {
 
@@ -21,15 +21,28 @@ class FormatError : public std::runtime_error {
   explicit FormatError(const std::string& message) : std::runtime_error(message) {}
 };
 
-/// What is known of a model file beside where its points are.
+/// Something that a model file holds and that no array and no metadata carry.
+struct OtherContent {
+  enum class Kind : std::uint8_t {
+    Connectivity,  ///< faces, edges and their like
+    Rest,
+  };
+  /// How to name it: "5,660 faces", `vertex property "w" (list of float32)`.
+  std::string phrase;
+  Kind kind = Kind::Rest;
+};
+
+/// What is known of a model file beside where its points are and what their arrays hold.
 struct ModelInfo {
   /// The type of the positions.
   ScalarType type = ScalarType::Float32;
-  /// What the file holds beside positions, as phrases: `vertex property "red" (uint8)`,
-  /// "5,660 faces".
-  std::vector<std::string> otherContent;
-  /// Texts of the comment and obj_info lines of a PLY header.
-  std::vector<std::string> comments;
+  /// The arrays beside the positions, one tuple a point; names are unique.
+  std::vector<ArrayDescription> arrays;
+  /// What belongs to the whole: comments, the coordinate reference system, headers of scans.
+  Metadata metadata;
+  std::vector<OtherContent> otherContent;
+  /// Whether the points are rows of an image or grid, so that their order says something.
+  bool isOrganised = false;
   /// A lattice that every position lies on, if the file says one; its bases count for nothing.
   std::optional<Grid> lattice;
 };
@@ -38,35 +51,29 @@ struct ModelInfo {
 struct Model : ModelInfo {
   /// Three numbers of `type` a point, packed, in the byte order of this machine.
   std::vector<std::uint8_t> positions;
+  /// The values of `arrays`, in that order.
+  std::vector<ArrayValues> values;
 
   std::uint64_t size() const { return positions.size() / (3 * scalarSize(type)); }
-  /// Views the positions; the model must outlive the view.
-  PointSetView view() const { return PointSetView(positions.data(), type, size(), 0); }
-};
-
-/// One whole number a point that goes into a file beside the positions.
-struct PointColumn {
-  std::string name;
-  Span<const std::uint64_t> values;
-};
-
-/// What is to be written. Owns nothing but the names.
-struct ModelView {
-  PointSetView points;
-  std::vector<PointColumn> columns;
-};
-
-/// A column that is to be written, and the greatest number in it.
-struct ColumnLayout {
-  std::string name;
-  std::uint64_t greatest = 0;
+  /// Views positions and arrays; the model must outlive the view.
+  PointSetView view() const;
 };
 
 /// What has to be known of a model before its first point is written.
 struct ModelLayout {
   ScalarType type = ScalarType::Float32;
   std::uint64_t points = 0;
-  std::vector<ColumnLayout> columns;
+  std::vector<ArrayDescription> arrays;
+  Metadata metadata;
+  /// Whether the points are in the order of the file that they once came from, all of them.
+  bool keepsOrder = false;
+  /// The lattice that the positions lie on, if one is known.
+  std::optional<Grid> lattice;
+  /// A box with all points in it, if one is known: lower corner, upper corner.
+  std::optional<std::array<std::array<double, 3>, 2>> bounds;
+  /// Whether the stream holds nothing but this model and can go back, so that what is known only at
+  /// the end may be put into a header.
+  bool mayPatch = false;
 };
 
 }  // namespace bspc::formats

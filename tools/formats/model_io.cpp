@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "formats/array_tuples.h"
 #include "formats/input_buffer.h"
 #include "formats/las_reader.h"
 #include "formats/model_writer.h"
@@ -61,19 +62,18 @@ std::unique_ptr<PointStream> openPointStream(std::istream& in, Format format,
   throw FormatError("there is no reader for this format");
 }
 
-bool isWritable(Format format) { return format != Format::Las && format != Format::Pcd; }
-
 Model readModel(std::istream& in, Format format, const ProgressCallback& progress) {
   constexpr std::size_t kBlock = std::size_t{1} << 16;
   const std::unique_ptr<PointStream> points = openPointStream(in, format, progress);
   const std::size_t pointBytes = 3 * scalarSize(points->info().type);
   Model model;
+  model.values = emptyArrays(points->info().arrays);
   // One block more: the end shows only when less than a block comes.
   model.positions.reserve((points->reservable() + kBlock) * pointBytes);
   for (bool more = true; more;) {
     const std::size_t size = model.positions.size();
     model.positions.resize(size + kBlock * pointBytes);
-    const std::size_t got = points->read(model.positions.data() + size, kBlock);
+    const std::size_t got = points->read(model.positions.data() + size, model.values, kBlock);
     model.positions.resize(size + got * pointBytes);
     more = got == kBlock;
   }
@@ -81,15 +81,14 @@ Model readModel(std::istream& in, Format format, const ProgressCallback& progres
   return model;
 }
 
-void writeModel(std::ostream& out, Format format, const ModelView& model,
+void writeModel(std::ostream& out, Format format, const PointSetView& points,
                 const ProgressCallback& progress) {
-  ModelLayout layout{model.points.type(), model.points.size(), {}};
-  for (const PointColumn& column : model.columns) {
-    const auto* const greatest = std::max_element(column.values.begin(), column.values.end());
-    layout.columns.push_back({column.name, greatest == column.values.end() ? 0 : *greatest});
-  }
+  ModelLayout layout;
+  layout.type = points.type();
+  layout.points = points.size();
+  for (const ArrayView& array : points.arrays()) layout.arrays.push_back(array);
   ModelWriter writer(out, format, std::move(layout), progress);
-  writer.append(model);
+  writer.append(points);
   writer.finish();
 }
 

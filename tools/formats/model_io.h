@@ -23,15 +23,13 @@ std::optional<Format> formatFromPath(std::string_view path);
 std::unique_ptr<PointStream> openPointStream(std::istream& in, Format format,
                                              const ProgressCallback& progress = {});
 
-/// Reads a whole model; the rest is as with openPointStream(), through which it reads.
+/// Reads a whole model with its arrays; the rest is as with openPointStream(), through which it
+/// reads.
 Model readModel(std::istream& in, Format format, const ProgressCallback& progress = {});
 
-/// Whether writeModel() knows the format.
-bool isWritable(Format format);
-
-/// Writes a model to a stream opened in binary mode. Throws FormatError if the format cannot hold
-/// it or if the stream fails, Error(Cancelled) once `progress` asks to stop.
-void writeModel(std::ostream& out, Format format, const ModelView& model,
+/// Writes points with their arrays to a stream opened in binary mode. Throws FormatError if the
+/// format cannot hold them or if the stream fails, Error(Cancelled) once `progress` asks to stop.
+void writeModel(std::ostream& out, Format format, const PointSetView& points,
                 const ProgressCallback& progress = {});
 
 }  // namespace bspc::formats

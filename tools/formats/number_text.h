@@ -41,13 +41,11 @@ NumberStatus parseNumber(std::string_view text, T& value) {
   return NumberStatus::OutOfRange;
 }
 
-/// Appends the shortest text that parseNumber() restores to the same number; −0 becomes 0.
+/// Appends the shortest text that parseNumber() restores to the same number, the sign of zero too.
 template <class T>
 void appendNumber(std::string& text, T value) {
   std::array<char, 64> buffer;
-  // Comparing with zero drops the sign of −0.
-  const T shown = value == T(0) ? T(0) : value;
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), shown).ptr;
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
   text.append(buffer.data(), end);
 }
 

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "formats/array_tuples.h"
 #include "formats/position_text.h"
 #include "formats/text_scanner.h"
 #include "formats/wording.h"
@@ -68,37 +70,85 @@ constexpr std::array<Statement, 41> kStatements{{
 
 class ObjStream : public PointStream {
  public:
-  explicit ObjStream(InputBuffer in) : in_(std::move(in)), text_(in_) { info_.type = kTextType; }
+  explicit ObjStream(InputBuffer in) : in_(std::move(in)), text_(in_) {
+    info_.type = kTextType;
+    atVertex_ = nextVertex();
+    if (atVertex_) lookForColour();
+  }
 
-  std::size_t read(std::uint8_t* positions, std::size_t count) override {
+  std::size_t read(std::uint8_t* positions, Span<ArrayValues> values, std::size_t count) override {
     std::size_t done = 0;
-    std::string_view keyword;
-    while (done < count && text_.nextLine()) {
-      const bool isContinuation = continued_;
-      text_.cutComment('#');
-      continued_ = text_.endsWith('\\');
-      if (isContinuation || !text_.nextToken(keyword)) continue;
-      if (keyword == "v") {
-        if (continued_) text_.fail("a vertex that goes on in the next line is not supported");
-        storePosition(positions, done++, readVertex());
-      } else {
-        countStatement(keyword);
-      }
+    for (; done < count && atVertex_; ++done) {
+      storePosition(positions, done, readVertex(values));
+      atVertex_ = nextVertex();
     }
     if (done < count && info_.otherContent.empty()) nameOtherContent();
     return done;
   }
 
  private:
-  std::array<double, 3> readVertex() {
+  /// Moves to the numbers of the next vertex; false at the end.
+  bool nextVertex() {
+    std::string_view keyword;
+    while (text_.nextLine()) {
+      const bool isContinuation = continued_;
+      text_.cutComment('#');
+      continued_ = text_.endsWith('\\');
+      if (isContinuation || !text_.nextToken(keyword)) continue;
+      if (keyword != "v") {
+        countStatement(keyword);
+        continue;
+      }
+      if (continued_) text_.fail("a vertex that goes on in the next line is not supported");
+      return true;
+    }
+    return false;
+  }
+
+  /// Whether the vertices have colours shows in the first: three or four numbers more.
+  void lookForColour() {
+    std::string_view token;
+    std::size_t numbers = 0;
+    while (text_.nextToken(token)) ++numbers;
+    text_.rewindLine();
+    text_.nextToken(token);
+    if (numbers != 6 && numbers != 7) return;
+    ArrayDescription colours;
+    colours.name = numbers == 6 ? "RGB" : "RGBA";
+    colours.type = kTextType;
+    colours.components = static_cast<std::uint32_t>(numbers) - 3;
+    colours.componentNames = {"red", "green", "blue"};
+    if (numbers == 7) colours.componentNames.emplace_back("alpha");
+    colours.semantic = Semantic::Colours;
+    info_.arrays.push_back(std::move(colours));
+  }
+
+  std::array<double, 3> readVertex(Span<ArrayValues> values) {
     std::array<double, 3> position{};
     std::string_view token;
     for (std::size_t k = 0; k < 3; ++k) {
       if (!text_.nextToken(token)) text_.failAtEnd(std::string("a vertex without ") + "xyz"[k]);
       position[k] = text_.number<double>(token, [k] { return std::string(1, "xyz"[k]); });
     }
-    if (text_.nextToken(token)) readFurther(token);
+    if (!info_.arrays.empty() && !values.empty()) {
+      readColour(values);
+    } else if (text_.nextToken(token)) {
+      readFurther(token);
+    }
     return position;
+  }
+
+  void readColour(Span<ArrayValues> values) {
+    const std::size_t components = info_.arrays.front().components;
+    std::array<double, 4> colour{};
+    std::string_view token;
+    std::size_t numbers = 0;
+    for (; text_.nextToken(token); ++numbers) {
+      if (numbers == components) text_.fail("a vertex with more numbers than the first one");
+      colour[numbers] = text_.number<double>(token, [] { return std::string("a vertex colour"); });
+    }
+    if (numbers < components) text_.failAtEnd("a vertex with less numbers than the first one");
+    std::memcpy(appendTuples(values[0], 1), colour.data(), components * sizeof(double));
   }
 
   /// One further number is a weight, of which 1 says nothing; three or four are a colour.
@@ -111,7 +161,7 @@ class ObjStream : public PointStream {
       ++numbers;
     } while (text_.nextToken(token));
     if (numbers > 1) {
-      ++colours_;
+      colours_ += info_.arrays.empty() ? 1 : 0;
     } else if (first != 1) {
       ++weights_;
     }
@@ -128,17 +178,28 @@ class ObjStream : public PointStream {
   }
 
   void nameOtherContent() {
-    std::vector<std::string>& content = info_.otherContent;
-    if (colours_ > 0) content.push_back(counted(colours_, "vertex colour", "vertex colours"));
-    if (weights_ > 0) content.push_back(counted(weights_, "vertex weight", "vertex weights"));
+    std::vector<OtherContent>& content = info_.otherContent;
+    using Kind = OtherContent::Kind;
+    if (colours_ > 0) {
+      content.push_back({counted(colours_, "vertex colour", "vertex colours"), Kind::Rest});
+    }
+    if (weights_ > 0) {
+      content.push_back({counted(weights_, "vertex weight", "vertex weights"), Kind::Rest});
+    }
     for (std::size_t i = 0; i < kStatements.size(); ++i) {
-      if (counts_[i] == 0 || *kStatements[i].one == '\0') continue;
-      content.push_back(counted(counts_[i], kStatements[i].one, kStatements[i].many));
+      const Statement& statement = kStatements[i];
+      if (counts_[i] == 0 || *statement.one == '\0') continue;
+      const bool connects = statement.keyword == "f" || statement.keyword == "fo" ||
+                            statement.keyword == "l" || statement.keyword == "p";
+      content.push_back({counted(counts_[i], statement.one, statement.many),
+                         connects ? Kind::Connectivity : Kind::Rest});
     }
   }
 
   InputBuffer in_;
   TextScanner text_;
+  /// Whether the line is a vertex that has not been read yet.
+  bool atVertex_ = false;
   /// Whether the last line goes on in the next.
   bool continued_ = false;
   std::array<std::uint64_t, kStatements.size()> counts_{};

@@ -1,13 +1,13 @@
 #pragma once
 
-#include <string>
+#include <memory>
 
-#include "formats/model.h"
+#include "formats/point_writer.h"
 
 namespace bspc::formats {
 
-/// Writes what stands in front of the vertices of an OBJ file. Throws FormatError if the model
-/// has columns.
-void writeObjHeader(std::string& text, const ModelLayout& layout);
+/// Writes OBJ vertices, with their colours if the one array of the model is that and of floating
+/// point. Throws FormatError if it has other arrays.
+std::unique_ptr<PointWriter> objWriter(const ModelLayout& layout);
 
 }  // namespace bspc::formats

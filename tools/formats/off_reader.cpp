@@ -1,10 +1,13 @@
 #include "formats/off_reader.h"
 
 #include <array>
+#include <cstring>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
+#include "formats/array_tuples.h"
 #include "formats/position_text.h"
 #include "formats/text_scanner.h"
 #include "formats/wording.h"
@@ -21,14 +24,15 @@ class OffStream : public PointStream {
     vertices_ = expectCount("vertices");
     faces_ = expectCount("faces");
     skipNumbers("the number of edges");
+    if (vertices_ > 0) lookForArrays();
     // In text a vertex takes six bytes at the least.
     reservable_ = in_.reservable(vertices_, 6);
   }
 
-  std::size_t read(std::uint8_t* positions, std::size_t count) override {
+  std::size_t read(std::uint8_t* positions, Span<ArrayValues> values, std::size_t count) override {
     std::size_t done = 0;
     for (; done < count && index_ < vertices_; ++done, ++index_) {
-      storePosition(positions, done, readVertex());
+      storePosition(positions, done, readVertex(values));
     }
     if (done < count) finish();
     return done;
@@ -43,6 +47,33 @@ class OffStream : public PointStream {
     if (next(token)) text_.fail("trailing data after the last face: " + quoted(token));
     nameOtherContent();
     finished_ = true;
+  }
+
+  /// What the keyword promises, if the first vertex has as many numbers in its line.
+  void lookForArrays() {
+    std::string_view token;
+    if (!next(token)) return;
+    std::size_t further = 0;
+    for (std::size_t numbers = 1; text_.nextToken(token); ++numbers) further += numbers < 3 ? 0 : 1;
+    text_.rewindLine();
+    const std::size_t others = (hasNormals_ ? 3U : 0U) + (hasTexture_ ? 2U : 0U);
+    if (further < others) return;
+    const std::size_t colours = further - others;
+    if (hasColours_ ? colours != 3 && colours != 4 : colours != 0) return;
+    if (hasNormals_) addArray("Normals", Semantic::Normals, {"nx", "ny", "nz"});
+    if (colours == 3) addArray("RGB", Semantic::Colours, {"red", "green", "blue"});
+    if (colours == 4) addArray("RGBA", Semantic::Colours, {"red", "green", "blue", "alpha"});
+    if (hasTexture_) addArray("TextureCoordinates", Semantic::TextureCoordinates, {"s", "t"});
+  }
+
+  void addArray(const char* name, Semantic semantic, std::vector<std::string> components) {
+    ArrayDescription array;
+    array.name = name;
+    array.type = kTextType;
+    array.components = static_cast<std::uint32_t>(components.size());
+    array.componentNames = std::move(components);
+    array.semantic = semantic;
+    info_.arrays.push_back(std::move(array));
   }
 
   /// The next token of this line or a later one, comments left out.
@@ -96,7 +127,7 @@ class OffStream : public PointStream {
     return count;
   }
 
-  std::array<double, 3> readVertex() {
+  std::array<double, 3> readVertex(Span<ArrayValues> values) {
     std::array<double, 3> position{};
     std::string_view token;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -104,8 +135,26 @@ class OffStream : public PointStream {
       position[k] = text_.number<double>(
           token, [&] { return std::string(1, "xyz"[k]) + " of " + place("vertex", vertices_); });
     }
-    if (skipNumbers("a vertex") > 0) ++further_;
+    if (!info_.arrays.empty() && !values.empty()) {
+      readArrays(values);
+    } else if (skipNumbers("a vertex") > 0 && info_.arrays.empty()) {
+      ++further_;
+    }
     return position;
+  }
+
+  void readArrays(Span<ArrayValues> values) {
+    std::string_view token;
+    for (std::size_t a = 0; a < info_.arrays.size(); ++a) {
+      std::array<double, 4> tuple{};
+      const std::size_t components = info_.arrays[a].components;
+      for (std::size_t k = 0; k < components; ++k) {
+        if (!text_.nextToken(token)) text_.failAtEnd("a vertex with less numbers than the first");
+        tuple[k] = text_.number<double>(token, [] { return std::string("a vertex"); });
+      }
+      std::memcpy(appendTuples(values[a], 1), tuple.data(), components * sizeof(double));
+    }
+    if (text_.nextToken(token)) text_.fail("a vertex with more numbers than the first");
   }
 
   /// Its number of corners, their vertices, perhaps a colour to the end of the line.
@@ -136,16 +185,13 @@ class OffStream : public PointStream {
   }
 
   void nameOtherContent() {
-    std::vector<std::string>& content = info_.otherContent;
+    using Kind = OtherContent::Kind;
+    std::vector<OtherContent>& content = info_.otherContent;
     if (further_ > 0) {
-      if (hasNormals_) content.emplace_back("vertex normals");
-      if (hasColours_) content.emplace_back("vertex colours");
-      if (hasTexture_) content.emplace_back("vertex texture coordinates");
-      if (content.empty()) {
-        content.push_back("further numbers of " + counted(further_, "vertex", "vertices"));
-      }
+      content.push_back(
+          {"further numbers of " + counted(further_, "vertex", "vertices"), Kind::Rest});
     }
-    if (faces_ > 0) content.push_back(counted(faces_, "face", "faces"));
+    if (faces_ > 0) content.push_back({counted(faces_, "face", "faces"), Kind::Connectivity});
   }
 
   InputBuffer in_;

@@ -1,13 +1,12 @@
 #pragma once
 
-#include <string>
+#include <memory>
 
-#include "formats/model.h"
+#include "formats/point_writer.h"
 
 namespace bspc::formats {
 
-/// Writes what stands in front of the vertices of an OFF file. Throws FormatError if the model
-/// has columns.
-void writeOffHeader(std::string& text, const ModelLayout& layout);
+/// Writes the vertices of an OFF file. Throws FormatError if the model has arrays.
+std::unique_ptr<PointWriter> offWriter(const ModelLayout& layout);
 
 }  // namespace bspc::formats

@@ -37,6 +37,16 @@ void OutputBuffer::write(const void* data, std::uint64_t size) {
   }
 }
 
+void OutputBuffer::overwriteStart(const std::string& bytes) {
+  flush();
+  const std::ostream::pos_type end = out_.tellp();
+  if (start_ == std::ostream::pos_type(-1) || end == std::ostream::pos_type(-1)) return;
+  out_.seekp(start_);
+  out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  out_.seekp(end);
+  requireGood();
+}
+
 void OutputBuffer::finish() {
   flush();
   // Errors of a full disk may show only here.

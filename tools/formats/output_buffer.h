@@ -15,7 +15,7 @@ namespace bspc::formats {
 class OutputBuffer {
  public:
   explicit OutputBuffer(std::ostream& out, ProgressCallback progress = {})
-      : out_(out), progress_(std::move(progress)) {}
+      : out_(out), progress_(std::move(progress)), start_(out.tellp()) {}
 
   /// Where to append; call advance() now and then.
   std::string& text() { return text_; }
@@ -27,6 +27,9 @@ class OutputBuffer {
   }
   /// Writes bytes that need no copy, block by block.
   void write(const void* data, std::uint64_t size);
+  /// Replaces the first bytes of all that was written, if the stream can go back. Only for streams
+  /// that hold nothing else: where they append, the bytes would land at the end.
+  void overwriteStart(const std::string& bytes);
   void finish();
 
  private:
@@ -39,6 +42,7 @@ class OutputBuffer {
   std::ostream& out_;
   ProgressCallback progress_;
   std::string text_;
+  std::ostream::pos_type start_;
 };
 
 }  // namespace bspc::formats

@@ -1,3 +1,6 @@
+#include <utility>
+#include <vector>
+
 #include "formats/model.h"
 #include "formats/pcd_body.h"
 #include "formats/record_reader.h"
@@ -15,6 +18,14 @@ RecordLayout layoutOf(const PcdHeader& header) {
     const PcdField& field = header.axis(k);
     layout.xyz[k] = {static_cast<std::size_t>(field.byteOffset), field.type};
   }
+  for (const PcdArray& array : header.arrays) {
+    std::vector<std::size_t> offsets;
+    for (std::size_t k = 0; k < array.offsets.size(); ++k) {
+      const std::uint64_t field = header.fields[array.fields[k]].byteOffset;
+      offsets.push_back(static_cast<std::size_t>(field) + array.offsets[k]);
+    }
+    layout.arrays.push_back(std::move(offsets));
+  }
   layout.swapped = !hostIsLittleEndian();
   layout.positionType = header.positionType;
   return layout;
@@ -25,8 +36,9 @@ class BinaryBody : public PcdBody {
   BinaryBody(InputBuffer& in, const PcdHeader& header)
       : in_(in), header_(header), records_(in, layoutOf(header)) {}
 
-  void readPoints(std::uint64_t first, std::size_t count, std::uint8_t* positions) override {
-    const RecordReader::Result result = records_.read(positions, count);
+  void readPoints(std::uint64_t first, std::size_t count, std::uint8_t* positions,
+                  Span<ArrayValues> values) override {
+    const RecordReader::Result result = records_.read(positions, values, count);
     const std::uint64_t next = first + result.records;
     if (result.status == RecordReader::Status::EndOfStream) {
       throw FormatError("the file ends inside " + pcdPlace(header_, next) + " (byte " +

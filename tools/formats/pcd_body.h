@@ -5,6 +5,8 @@
 #include <memory>
 #include <string>
 
+#include "bspc/arrays.h"
+#include "bspc/span.h"
 #include "formats/input_buffer.h"
 #include "formats/pcd_header.h"
 #include "formats/text_scanner.h"
@@ -20,8 +22,10 @@ class PcdBody {
   PcdBody& operator=(const PcdBody&) = delete;
 
   /// Reads `count` points of which the first is number `first`, counted from 0. Writes three
-  /// numbers each of the type header.positionType.
-  virtual void readPoints(std::uint64_t first, std::size_t count, std::uint8_t* positions) = 0;
+  /// numbers each of the type header.positionType to `positions` and appends their tuples to
+  /// `values`, which has an array for each of header.arrays or none.
+  virtual void readPoints(std::uint64_t first, std::size_t count, std::uint8_t* positions,
+                          Span<ArrayValues> values) = 0;
   /// Throws if anything follows.
   virtual void requireEnd() = 0;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "formats/array_tuples.h"
 #include "formats/little_endian.h"
 #include "formats/model.h"
 #include "formats/pcd_body.h"
@@ -20,7 +21,8 @@ class CompressedBody : public PcdBody {
  public:
   CompressedBody(InputBuffer& in, const PcdHeader& header) : in_(in), header_(header) {}
 
-  void readPoints(std::uint64_t first, std::size_t count, std::uint8_t* positions) override {
+  void readPoints(std::uint64_t first, std::size_t count, std::uint8_t* positions,
+                  Span<ArrayValues> values) override {
     uncompress();
     const std::size_t size = scalarSize(header_.positionType);
     for (std::size_t k = 0; k < 3; ++k) {
@@ -32,6 +34,9 @@ class CompressedBody : public PcdBody {
       const std::size_t exact = convertScalars(source, target, count);
       if (exact < count) failInexactPcd(header_, k, first + exact, start_);
     }
+    for (std::size_t a = 0; a < values.size(); ++a) {
+      appendArray(first, count, header_.arrays[a], values[a]);
+    }
   }
 
   void requireEnd() override {
@@ -40,6 +45,20 @@ class CompressedBody : public PcdBody {
   }
 
  private:
+  void appendArray(std::uint64_t first, std::size_t count, const PcdArray& array,
+                   ArrayValues& values) const {
+    const std::size_t size = scalarSize(values.type);
+    std::uint8_t* const tuples = appendTuples(values, count);
+    for (std::size_t k = 0; k < array.offsets.size(); ++k) {
+      const PcdField& field = header_.fields[array.fields[k]];
+      const std::size_t stride = static_cast<std::size_t>(field.count) * scalarSize(field.type);
+      const std::uint64_t at = field.byteOffset * header_.points + first * stride;
+      const ScalarSource source{fields_.data() + at + array.offsets[k], values.type, stride,
+                                !hostIsLittleEndian()};
+      convertScalars(source, {tuples + k * size, values.type, array.offsets.size() * size}, count);
+    }
+  }
+
   [[noreturn]] void fail(const std::string& what) const {
     throw FormatError(what + " (byte " + grouped(start_) + ")");
   }

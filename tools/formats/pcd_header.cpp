@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -13,8 +14,8 @@ namespace bspc::formats {
 
 namespace {
 
-/// More than any point takes; sizes that are counted in 64 bits cannot overflow below it.
-constexpr std::uint64_t kMostPointBytes = std::uint64_t{1} << 30;
+/// More than any point takes.
+constexpr std::uint64_t kMostPointBytes = std::uint64_t{1} << 20;
 
 std::optional<ScalarType> typeOf(std::string_view letter, std::uint64_t size) {
   constexpr std::array<std::pair<std::string_view, ScalarType>, 10> kTypes{{
@@ -45,7 +46,7 @@ class HeaderReader {
     layOutFields();
     findPositions();
     countPoints();
-    nameOtherContent();
+    header_.arrays = pcdArrays(header_.fields);
     return std::move(header_);
   }
 
@@ -111,12 +112,16 @@ class HeaderReader {
   /// Where the sensor was, and how it was turned; the origin without a turn says nothing.
   void readViewpoint() {
     constexpr std::array<double, 7> kNone{0, 0, 0, 1, 0, 0, 0};
+    bool saysSomething = false;
+    std::string numbers;
     for (const double none : kNone) {
       std::string_view word;
       text_.nextToken(word);
       const auto value = text_.number<double>(word, [] { return std::string("VIEWPOINT"); });
-      hasViewpoint_ = hasViewpoint_ || value != none;
+      saysSomething = saysSomething || value != none;
+      numbers += (numbers.empty() ? "" : " ") + std::string(word);
     }
+    if (saysSomething) header_.viewpoint = numbers;
   }
 
   void readEncoding() {
@@ -145,7 +150,11 @@ class HeaderReader {
     requireAsMany(sizes_.size(), "SIZE");
     requireAsMany(types_.size(), "TYPE");
     requireAsMany(counts_.size(), "COUNT");
+    std::set<std::string> seen;
     for (std::size_t i = 0; i < names_.size(); ++i) {
+      if (names_[i] != "_" && !seen.insert(names_[i]).second) {
+        text_.fail("a second field " + quoted(names_[i]));
+      }
       const std::optional<ScalarType> type = typeOf(types_[i], sizes_[i]);
       if (!type) {
         text_.fail("the field " + quoted(names_[i]) + " is of TYPE " + quoted(types_[i]) +
@@ -156,7 +165,7 @@ class HeaderReader {
           {names_[i], *type, counts_[i], header_.pointBytes, header_.pointNumbers});
       if (counts_[i] > kMostPointBytes ||
           header_.pointBytes + counts_[i] * sizes_[i] > kMostPointBytes) {
-        text_.fail("the field " + quoted(names_[i]) + " makes a point larger than 1 GiB");
+        text_.fail("the field " + quoted(names_[i]) + " makes a point larger than 1 MiB");
       }
       header_.pointBytes += counts_[i] * sizes_[i];
       header_.pointNumbers += counts_[i];
@@ -169,9 +178,6 @@ class HeaderReader {
       const std::string name(1, "xyz"[k]);
       const auto found = std::find(names_.begin(), names_.end(), name);
       if (found == names_.end()) text_.fail("the header declares no field " + quoted(name));
-      if (std::find(found + 1, names_.end(), name) != names_.end()) {
-        text_.fail("a second field " + quoted(name));
-      }
       header_.xyz[k] = static_cast<std::size_t>(found - names_.begin());
       const PcdField& field = header_.axis(k);
       if (field.count != 1) {
@@ -194,25 +200,8 @@ class HeaderReader {
       text_.fail("the header has POINTS " + grouped(header_.points) + " but WIDTH " +
                  grouped(*width_) + " and HEIGHT " + grouped(height));
     }
-  }
-
-  void nameOtherContent() {
-    if (header_.points == 0) return;
-    std::vector<std::string>& content = header_.otherContent;
-    for (std::size_t i = 0; i < header_.fields.size(); ++i) {
-      const PcdField& field = header_.fields[i];
-      if (std::find(header_.xyz.begin(), header_.xyz.end(), i) != header_.xyz.end()) continue;
-      // Padding has this name.
-      if (field.name == "_" || field.count == 0) continue;
-      content.push_back("point field " + quoted(field.name) + " (" +
-                        (field.count > 1 ? grouped(field.count) + " " : "") +
-                        scalarName(field.type) + ")");
-    }
-    if (height_.value_or(1) > 1 && width_) {
-      content.push_back("the arrangement in " + grouped(*height_) + " rows of " +
-                        counted(*width_, "point", "points"));
-    }
-    if (hasViewpoint_) content.emplace_back("a viewpoint");
+    header_.height = width_ ? height : 1;
+    header_.width = width_.value_or(header_.points);
   }
 
   TextScanner& text_;
@@ -224,7 +213,6 @@ class HeaderReader {
   std::optional<std::uint64_t> width_;
   std::optional<std::uint64_t> height_;
   std::optional<std::uint64_t> points_;
-  bool hasViewpoint_ = false;
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bspc/scalar_type.h"
+#include "formats/pcd_arrays.h"
 #include "formats/text_scanner.h"
 
 namespace bspc::formats {
@@ -34,8 +35,13 @@ struct PcdHeader {
   std::array<std::size_t, 3> xyz{};
   /// The type that holds all three exactly.
   ScalarType positionType = ScalarType::Float32;
-  /// What a file with this header holds beside positions, as phrases for ModelInfo::otherContent.
-  std::vector<std::string> otherContent;
+  /// The arrays that the other fields are.
+  std::vector<PcdArray> arrays;
+  /// Rows of an organised cloud and the points of each; 1 row if it is none.
+  std::uint64_t width = 0;
+  std::uint64_t height = 1;
+  /// The seven numbers of the line VIEWPOINT; empty if they are those that say nothing.
+  std::string viewpoint;
 
   const PcdField& axis(std::size_t k) const { return fields[xyz[k]]; }
 };

@@ -16,7 +16,8 @@ class PcdStream : public PointStream {
   explicit PcdStream(InputBuffer in)
       : in_(std::move(in)), text_(in_), header_(readPcdHeader(text_)) {
     info_.type = header_.positionType;
-    info_.otherContent = header_.otherContent;
+    for (const PcdArray& array : header_.arrays) info_.arrays.push_back(array.array);
+    keepHeader();
     // In text, a digit and a blank a number; compressed, nobody knows.
     std::uint64_t least = header_.pointBytes;
     switch (header_.encoding) {
@@ -34,10 +35,10 @@ class PcdStream : public PointStream {
     reservable_ = in_.reservable(header_.points, static_cast<std::size_t>(least));
   }
 
-  std::size_t read(std::uint8_t* positions, std::size_t count) override {
+  std::size_t read(std::uint8_t* positions, Span<ArrayValues> values, std::size_t count) override {
     const std::uint64_t left = header_.points - done_;
     const auto points = static_cast<std::size_t>(std::min<std::uint64_t>(count, left));
-    if (points > 0) body_->readPoints(done_, points, positions);
+    if (points > 0) body_->readPoints(done_, points, positions, values);
     done_ += points;
     if (points < count && !finished_) {
       body_->requireEnd();
@@ -47,6 +48,20 @@ class PcdStream : public PointStream {
   }
 
  private:
+  void keepHeader() {
+    auto& entries = info_.metadata.entries;
+    if (!header_.viewpoint.empty()) entries.emplace_back("pcd.viewpoint", header_.viewpoint);
+    for (const PcdField& field : header_.fields) {
+      const bool isUsual = isFloatingPoint(field.type) == (field.name == "rgb");
+      if (!isPackedColour(field) || isUsual) continue;
+      entries.emplace_back("pcd." + field.name, scalarName(field.type));
+    }
+    info_.isOrganised = header_.height > 1;
+    if (!info_.isOrganised) return;
+    entries.emplace_back("pcd.width", std::to_string(header_.width));
+    entries.emplace_back("pcd.height", std::to_string(header_.height));
+  }
+
   InputBuffer in_;
   TextScanner text_;
   PcdHeader header_;

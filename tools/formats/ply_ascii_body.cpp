@@ -1,5 +1,6 @@
 #include <string>
 
+#include "formats/array_tuples.h"
 #include "formats/ply_body.h"
 #include "formats/scalar_text.h"
 #include "formats/wording.h"
@@ -13,7 +14,10 @@ namespace {
 class AsciiBody : public PlyBody {
  public:
   AsciiBody(TextScanner& text, const PlyHeader& header)
-      : text_(text), header_(header), axes_(plyAxes(header)) {}
+      : text_(text),
+        header_(header),
+        axes_(plyAxes(header)),
+        targets_(targetsOf(header.arrays, axes_.size())) {}
 
   void skip(const PlyElement& element) override {
     element_ = &element;
@@ -24,17 +28,21 @@ class AsciiBody : public PlyBody {
     }
   }
 
-  void readVertices(std::uint64_t first, std::size_t count, std::uint8_t* positions) override {
+  void readVertices(std::uint64_t first, std::size_t count, std::uint8_t* positions,
+                    Span<ArrayValues> values) override {
     const std::size_t size = scalarSize(header_.positionType);
     element_ = &header_.vertices();
     for (std::size_t i = 0; i < count; ++i) {
       index_ = first + i;
+      appendTuple(values);
       for (std::size_t p = 0; p < element_->properties.size(); ++p) {
         const PlyProperty& property = element_->properties[p];
         if (axes_[p] < 3) {
           readCoordinate(text_, nextToken(), property.type, header_.positionType,
                          positions + (3 * i + axes_[p]) * size,
                          [&property] { return describe(property); });
+        } else if (!values.empty() && targets_[p].array != ColumnTarget::kNone) {
+          readNumber(property.type, property, targets_[p].at(values));
         } else {
           skipProperty(property);
         }
@@ -63,8 +71,8 @@ class AsciiBody : public PlyBody {
     for (std::uint64_t i = 0; i < count; ++i) readNumber(property.type, property, &bytes);
   }
 
-  /// Stores the next number as `type` at `to`, which takes eight bytes.
-  void readNumber(ScalarType type, const PlyProperty& property, std::uint64_t* to) {
+  /// Stores the next number as `type` at `to`.
+  void readNumber(ScalarType type, const PlyProperty& property, void* to) {
     readScalar(text_, nextToken(), type, to, [&property] { return describe(property); });
   }
 
@@ -83,6 +91,7 @@ class AsciiBody : public PlyBody {
   TextScanner& text_;
   const PlyHeader& header_;
   std::vector<std::size_t> axes_;
+  std::vector<ColumnTarget> targets_;
   const PlyElement* element_ = nullptr;
   std::uint64_t index_ = 0;
 };

@@ -2,6 +2,7 @@
 #include <cstring>
 #include <string>
 
+#include "formats/array_tuples.h"
 #include "formats/model.h"
 #include "formats/ply_body.h"
 #include "formats/record_reader.h"
@@ -13,16 +14,22 @@ namespace bspc::formats {
 
 namespace {
 
-/// Where x, y and z are in vertices without lists.
+/// Where the numbers are in vertices without lists.
 RecordLayout layoutOf(const PlyHeader& header, bool swapped) {
   RecordLayout layout;
   layout.swapped = swapped;
   layout.positionType = header.positionType;
   const std::vector<std::size_t> axes = plyAxes(header);
+  std::vector<std::size_t> offsets;
   for (std::size_t p = 0; p < axes.size(); ++p) {
     const PlyProperty& property = header.vertices().properties[p];
     if (axes[p] < 3) layout.xyz[axes[p]] = {layout.bytes, property.type};
+    offsets.push_back(layout.bytes);
     layout.bytes += scalarSize(property.type);
+  }
+  for (const GroupedColumns& group : header.arrays) {
+    layout.arrays.emplace_back();
+    for (const std::size_t p : group.columns) layout.arrays.back().push_back(offsets[p]);
   }
   return layout;
 }
@@ -33,6 +40,7 @@ class BinaryBody : public PlyBody {
       : in_(in),
         header_(header),
         axes_(plyAxes(header)),
+        targets_(targetsOf(header.arrays, axes_.size())),
         swapped_((header.encoding == PlyEncoding::LittleEndian) != hostIsLittleEndian()),
         layout_(layoutOf(header, swapped_)),
         records_(in, layout_) {}
@@ -40,17 +48,21 @@ class BinaryBody : public PlyBody {
   void skip(const PlyElement& element) override {
     element_ = &element;
     if (element.hasList()) {
-      for (std::uint64_t i = 0; i < element.count; ++i) readRecord(i, nullptr);
+      for (std::uint64_t i = 0; i < element.count; ++i) readRecord(i, nullptr, {});
     } else {
       skipRecords();
     }
   }
 
-  void readVertices(std::uint64_t first, std::size_t count, std::uint8_t* positions) override {
+  void readVertices(std::uint64_t first, std::size_t count, std::uint8_t* positions,
+                    Span<ArrayValues> values) override {
     element_ = &header_.vertices();
-    if (!element_->hasList()) return readFixed(first, count, positions);
+    if (!element_->hasList()) return readFixed(first, count, positions, values);
     const std::size_t pointBytes = 3 * scalarSize(header_.positionType);
-    for (std::size_t i = 0; i < count; ++i) readRecord(first + i, positions + i * pointBytes);
+    for (std::size_t i = 0; i < count; ++i) {
+      appendTuple(values);
+      readRecord(first + i, positions + i * pointBytes, values);
+    }
   }
 
   void requireEnd() override {
@@ -61,8 +73,9 @@ class BinaryBody : public PlyBody {
   }
 
  private:
-  void readFixed(std::uint64_t first, std::size_t count, std::uint8_t* positions) {
-    const RecordReader::Result result = records_.read(positions, count);
+  void readFixed(std::uint64_t first, std::size_t count, std::uint8_t* positions,
+                 Span<ArrayValues> values) {
+    const RecordReader::Result result = records_.read(positions, values, count);
     if (result.status == RecordReader::Status::EndOfStream) failShort(first + result.records);
     if (result.status == RecordReader::Status::Inexact) {
       failInexact(element_->properties[header_.xyz[result.axis]], first + result.records,
@@ -70,8 +83,9 @@ class BinaryBody : public PlyBody {
     }
   }
 
-  /// Reads one element with lists in it; the coordinates of a vertex go to `point`.
-  void readRecord(std::uint64_t index, std::uint8_t* point) {
+  /// Reads one element with lists in it; the coordinates of a vertex go to `point`, its other
+  /// numbers to the last tuples of `values`.
+  void readRecord(std::uint64_t index, std::uint8_t* point, Span<ArrayValues> values) {
     const std::size_t size = scalarSize(header_.positionType);
     for (std::size_t p = 0; p < element_->properties.size(); ++p) {
       const PlyProperty& property = element_->properties[p];
@@ -85,6 +99,9 @@ class BinaryBody : public PlyBody {
         const ScalarSource source{in_.data(), property.type, 0, swapped_};
         const ScalarTarget target{point + axes_[p] * size, header_.positionType, 0};
         if (convertScalars(source, target, 1) == 0) failInexact(property, index, in_.offset());
+      } else if (!values.empty() && targets_[p].array != ColumnTarget::kNone) {
+        const ScalarSource source{in_.data(), property.type, 0, swapped_};
+        convertScalars(source, {targets_[p].at(values), property.type, 0}, 1);
       }
       in_.consume(bytes);
     }
@@ -144,6 +161,7 @@ class BinaryBody : public PlyBody {
   InputBuffer& in_;
   const PlyHeader& header_;
   std::vector<std::size_t> axes_;
+  std::vector<ColumnTarget> targets_;
   bool swapped_;
   RecordLayout layout_;
   RecordReader records_;

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "bspc/arrays.h"
+#include "bspc/span.h"
 #include "formats/input_buffer.h"
 #include "formats/ply_header.h"
 #include "formats/text_scanner.h"
@@ -23,8 +25,10 @@ class PlyBody {
   /// Passes over all of an element that is not the vertices.
   virtual void skip(const PlyElement& element) = 0;
   /// Reads `count` vertices of which the first is number `first`, counted from 0. Writes three
-  /// numbers each of the type header.positionType and passes over their other properties.
-  virtual void readVertices(std::uint64_t first, std::size_t count, std::uint8_t* positions) = 0;
+  /// numbers each of the type header.positionType to `positions` and appends their tuples to
+  /// `values`, which has an array for each of header.arrays or none; lists are passed over.
+  virtual void readVertices(std::uint64_t first, std::size_t count, std::uint8_t* positions,
+                            Span<ArrayValues> values) = 0;
   /// Throws if anything follows.
   virtual void requireEnd() = 0;
 };

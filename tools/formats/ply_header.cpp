@@ -5,7 +5,6 @@
 #include <string_view>
 #include <utility>
 
-#include "formats/model.h"
 #include "formats/scalar_common.h"
 #include "formats/wording.h"
 
@@ -55,6 +54,7 @@ class HeaderReader {
     }
     if (!hasFormat_) text_.fail("the header has no line \"format\"");
     findPositions();
+    findArrays();
     return std::move(header_);
   }
 
@@ -67,7 +67,7 @@ class HeaderReader {
     std::string_view word;
     if (!text_.nextToken(word)) return true;
     if (word == "comment" || word == "obj_info") {
-      header_.comments.emplace_back(text_.rest());
+      (word == "comment" ? header_.comments : header_.infos).emplace_back(text_.rest());
       return true;
     }
     if (word == "format") {
@@ -182,6 +182,23 @@ class HeaderReader {
     header_.positionType = commonScalarType(types);
   }
 
+  void findArrays() {
+    const std::vector<PlyProperty>& properties = header_.vertices().properties;
+    std::vector<Column> columns;
+    std::vector<std::size_t> propertyOf;
+    for (std::size_t p = 0; p < properties.size(); ++p) {
+      const bool isPosition =
+          std::find(header_.xyz.begin(), header_.xyz.end(), p) != header_.xyz.end();
+      if (isPosition || properties[p].isList) continue;
+      columns.push_back({utf8(properties[p].name), properties[p].type});
+      propertyOf.push_back(p);
+    }
+    header_.arrays = groupColumns(columns);
+    for (GroupedColumns& group : header_.arrays) {
+      for (std::size_t& column : group.columns) column = propertyOf[column];
+    }
+  }
+
   TextScanner& text_;
   PlyHeader header_;
   bool hasFormat_ = false;
@@ -210,22 +227,24 @@ std::uint64_t PlyElement::leastBytes(PlyEncoding encoding) const {
 
 PlyHeader readPlyHeader(TextScanner& text) { return HeaderReader(text).read(); }
 
-std::vector<std::string> otherPlyContent(const PlyHeader& header) {
-  std::vector<std::string> content;
+std::vector<OtherContent> otherPlyContent(const PlyHeader& header) {
+  std::vector<OtherContent> content;
   for (std::size_t e = 0; e < header.elements.size(); ++e) {
     const PlyElement& element = header.elements[e];
     if (element.count == 0) continue;
     if (e != header.vertexElement) {
       const bool plain = element.name == "face" || element.name == "edge";
       const std::string name = plain ? element.name : quoted(element.name) + " element";
-      content.push_back(counted(element.count, name, name + "s"));
+      const bool connects = plain || element.name == "tristrips";
+      content.push_back({counted(element.count, name, name + "s"),
+                         connects ? OtherContent::Kind::Connectivity : OtherContent::Kind::Rest});
       continue;
     }
-    for (std::size_t p = 0; p < element.properties.size(); ++p) {
-      if (std::find(header.xyz.begin(), header.xyz.end(), p) != header.xyz.end()) continue;
-      const PlyProperty& property = element.properties[p];
-      content.push_back("vertex property " + quoted(property.name) + " (" +
-                        (property.isList ? "list of " : "") + scalarName(property.type) + ")");
+    for (const PlyProperty& property : element.properties) {
+      if (!property.isList) continue;
+      content.push_back({"vertex property " + quoted(property.name) + " (list of " +
+                             scalarName(property.type) + ")",
+                         OtherContent::Kind::Rest});
     }
   }
   return content;

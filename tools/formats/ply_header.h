@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "bspc/scalar_type.h"
+#include "formats/array_columns.h"
+#include "formats/model.h"
 #include "formats/text_scanner.h"
 
 namespace bspc::formats {
@@ -36,12 +38,16 @@ struct PlyElement {
 struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::Ascii;
   std::vector<PlyElement> elements;
+  /// Texts of the lines "comment" and "obj_info".
   std::vector<std::string> comments;
+  std::vector<std::string> infos;
   /// Which element is "vertex", and which of its properties are x, y and z.
   std::size_t vertexElement = 0;
   std::array<std::size_t, 3> xyz{};
   /// The type that holds all three exactly.
   ScalarType positionType = ScalarType::Float32;
+  /// The arrays that the other properties of the vertices are, lists left out.
+  std::vector<GroupedColumns> arrays;
 
   const PlyElement& vertices() const { return elements[vertexElement]; }
 };
@@ -50,7 +56,7 @@ struct PlyHeader {
 /// it. Throws FormatError.
 PlyHeader readPlyHeader(TextScanner& text);
 
-/// What a file with this header holds beside positions, as phrases for Model::otherContent.
-std::vector<std::string> otherPlyContent(const PlyHeader& header);
+/// What a file with this header holds that neither positions nor arrays are.
+std::vector<OtherContent> otherPlyContent(const PlyHeader& header);
 
 }  // namespace bspc::formats

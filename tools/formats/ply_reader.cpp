@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "formats/array_tuples.h"
 #include "formats/ply_body.h"
 #include "formats/ply_header.h"
+#include "formats/wording.h"
 
 namespace bspc::formats {
 
@@ -18,22 +20,31 @@ class PlyStream : public PointStream {
     body_ = isText ? asciiPlyBody(text_, header_) : binaryPlyBody(in_, header_);
     info_.type = header_.positionType;
     info_.otherContent = otherPlyContent(header_);
-    info_.comments = std::move(header_.comments);
+    info_.arrays = arraysOf(header_.arrays);
+    keepLines("ply.comment", header_.comments);
+    keepLines("ply.obj_info", header_.infos);
     const PlyElement& vertices = header_.vertices();
     reservable_ = in_.reservable(vertices.count, vertices.leastBytes(header_.encoding));
   }
 
-  std::size_t read(std::uint8_t* positions, std::size_t count) override {
+  std::size_t read(std::uint8_t* positions, Span<ArrayValues> values, std::size_t count) override {
     skipUpTo(header_.vertexElement);
     const std::uint64_t left = header_.vertices().count - done_;
     const auto step = static_cast<std::size_t>(std::min<std::uint64_t>(count, left));
-    body_->readVertices(done_, step, positions);
+    body_->readVertices(done_, step, positions, values);
     done_ += step;
     if (step < count) finish();
     return step;
   }
 
  private:
+  void keepLines(const char* key, const std::vector<std::string>& lines) {
+    if (lines.empty()) return;
+    std::string text;
+    for (const std::string& line : lines) text += (text.empty() ? "" : "\n") + utf8(line);
+    info_.metadata.entries.emplace_back(key, std::move(text));
+  }
+
   void skipUpTo(std::size_t element) {
     for (; element_ < element; ++element_) {
       if (element_ != header_.vertexElement) body_->skip(header_.elements[element_]);

@@ -1,17 +1,18 @@
 #include "formats/ply_writer.h"
 
 #include <algorithm>
-#include <array>
-#include <cstring>
 #include <string>
 #include <vector>
 
-#include "formats/scalar_convert.h"
-#include "formats/wording.h"
+#include "formats/array_columns.h"
+#include "formats/las_records.h"
+#include "formats/record_writer.h"
 
 namespace bspc::formats {
 
 namespace {
+
+constexpr const char* kWrittenBy = "written by bspc";
 
 const char* plyName(ScalarType type) {
   switch (type) {
@@ -36,117 +37,76 @@ const char* plyName(ScalarType type) {
   }
 }
 
-/// One property of the file: where its numbers come from and as what they go out.
-struct Property {
-  std::string name;
-  ScalarSource source;
-  ScalarType type = ScalarType::Float32;
-  std::size_t offset = 0;
-};
-
-/// The type that positions go out as.
-ScalarType positionType(ScalarType type) {
+/// The type that numbers go out as.
+ScalarType plyType(ScalarType type) {
   const bool wide = type == ScalarType::Int64 || type == ScalarType::UInt64;
   return wide ? ScalarType::Float64 : type;
 }
 
-/// uint if all values fit, else double.
-ScalarType columnType(const ColumnLayout& column) {
-  return column.greatest <= UINT32_MAX ? ScalarType::UInt32 : ScalarType::Float64;
+/// The text of the entry as lines that start with `keyword`.
+void appendLines(std::string& text, const char* keyword, const std::string& lines) {
+  std::size_t at = 0;
+  while (at <= lines.size()) {
+    const std::size_t end = std::min(lines.find('\n', at), lines.size());
+    text += keyword;
+    for (const char c : lines.substr(at, end - at)) text += c == '\r' ? ' ' : c;
+    text += '\n';
+    at = end + 1;
+  }
 }
 
-std::vector<Property> listProperties(const ModelLayout& layout, const ModelView& model) {
-  const PointSetView& points = model.points;
-  std::vector<Property> properties;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto* data = static_cast<const std::uint8_t*>(points.data());
-    if (data != nullptr) data += k * scalarSize(layout.type);
-    properties.push_back({std::string(1, "xyz"[k]),
-                          {data, layout.type, points.strideBytes(), false},
-                          positionType(layout.type),
-                          0});
-  }
-  for (std::size_t c = 0; c < layout.columns.size(); ++c) {
-    const ColumnLayout& column = layout.columns[c];
-    const std::uint64_t* values =
-        c < model.columns.size() ? model.columns[c].values.data() : nullptr;
-    properties.push_back({column.name,
-                          {values, ScalarType::UInt64, sizeof(std::uint64_t), false},
-                          columnType(column),
-                          0});
-  }
-  std::size_t offset = 0;
-  for (Property& property : properties) {
-    property.offset = offset;
-    offset += scalarSize(property.type);
-  }
-  return properties;
-}
-
-/// The source from point `first` on.
-ScalarSource advanced(const ScalarSource& source, std::uint64_t first) {
-  ScalarSource moved = source;
-  moved.data = static_cast<const std::uint8_t*>(source.data) + first * source.stride;
-  return moved;
-}
-
-void swapRecords(std::vector<std::uint8_t>& block, std::size_t recordBytes, std::size_t count,
-                 const std::vector<Property>& properties) {
-  for (std::size_t i = 0; i < count; ++i) {
-    for (const Property& p : properties) {
-      std::uint8_t* at = block.data() + i * recordBytes + p.offset;
-      std::reverse(at, at + scalarSize(p.type));
+class PlyWriter : public PointWriter {
+ public:
+  explicit PlyWriter(const ModelLayout& layout)
+      : points_(layout.points),
+        comments_(metadataEntry(layout.metadata, "ply.comment")),
+        infos_(metadataEntry(layout.metadata, "ply.obj_info")) {
+    requireNumbers(layout.arrays, "a PLY file");
+    for (std::size_t k = 0; k < 3; ++k) {
+      add({std::string(1, "xyz"[k]), RecordField::kPosition, k, plyType(layout.type), 0});
+    }
+    for (const ArrayColumn& column : columnsOf(layout.arrays)) {
+      add({wordOf(column.name), column.array, column.component, plyType(column.type), 0});
     }
   }
-}
 
-void writeRecords(OutputBuffer& out, std::uint64_t count, const std::vector<Property>& properties) {
-  constexpr std::size_t kBlock = 4096;
-  const std::size_t recordBytes = properties.back().offset + scalarSize(properties.back().type);
-  std::vector<std::uint8_t> block(kBlock * recordBytes);
-  for (std::uint64_t first = 0; first < count; first += kBlock) {
-    const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(kBlock, count - first));
-    for (const Property& p : properties) {
-      const ScalarTarget target{block.data() + p.offset, p.type, recordBytes};
-      const std::size_t exact = convertScalars(advanced(p.source, first), target, size);
-      if (exact < size) {
-        throw FormatError(quoted(p.name) + " of point " + grouped(first + exact) +
-                          " is an integer that a PLY file cannot hold exactly");
-      }
+  void begin(OutputBuffer& out) override {
+    std::string& text = out.text();
+    text += "ply\nformat binary_little_endian 1.0\n";
+    if (comments_.find(kWrittenBy) == std::string::npos) {
+      text += std::string("comment ") + kWrittenBy + '\n';
     }
-    if (!hostIsLittleEndian()) swapRecords(block, recordBytes, size, properties);
-    out.text().append(reinterpret_cast<const char*>(block.data()), size * recordBytes);
-    out.advance(first + size, count);
+    if (!comments_.empty()) appendLines(text, "comment ", comments_);
+    if (!infos_.empty()) appendLines(text, "obj_info ", infos_);
+    text += "element vertex " + std::to_string(points_) + '\n';
+    for (const RecordField& field : fields_) {
+      text += std::string("property ") + plyName(field.type) + ' ' + field.name + '\n';
+    }
+    text += "end_header\n";
   }
-}
 
-/// Whether the points in memory are the records of the file, byte for byte.
-bool isRecordImage(const ModelView& model, const std::vector<Property>& properties) {
-  return model.columns.empty() && hostIsLittleEndian() &&
-         properties[0].type == model.points.type() &&
-         model.points.strideBytes() == 3 * scalarSize(model.points.type());
-}
+  void append(OutputBuffer& out, const PointSetView& points) override {
+    writeRecords(out, points, fields_, recordBytes_, "a PLY file");
+  }
+
+ private:
+  void add(RecordField field) {
+    field.offset = recordBytes_;
+    recordBytes_ += scalarSize(field.type);
+    fields_.push_back(std::move(field));
+  }
+
+  std::uint64_t points_;
+  std::string comments_;
+  std::string infos_;
+  std::vector<RecordField> fields_;
+  std::size_t recordBytes_ = 0;
+};
 
 }  // namespace
 
-void writePlyHeader(std::string& text, const ModelLayout& layout) {
-  text += "ply\nformat binary_little_endian 1.0\ncomment written by bspc\nelement vertex ";
-  text += std::to_string(layout.points) + '\n';
-  for (const Property& p : listProperties(layout, {})) {
-    text += std::string("property ") + plyName(p.type) + ' ' + p.name + '\n';
-  }
-  text += "end_header\n";
-}
-
-void writePlyRecords(OutputBuffer& out, const ModelLayout& layout, const ModelView& model) {
-  const std::uint64_t count = model.points.size();
-  if (count == 0) return;
-  const std::vector<Property> properties = listProperties(layout, model);
-  if (isRecordImage(model, properties)) {
-    out.write(model.points.data(), count * model.points.strideBytes());
-  } else {
-    writeRecords(out, count, properties);
-  }
+std::unique_ptr<PointWriter> plyWriter(const ModelLayout& layout) {
+  return std::make_unique<PlyWriter>(layout);
 }
 
 }  // namespace bspc::formats

@@ -1,15 +1,14 @@
 #pragma once
 
-#include "formats/model.h"
-#include "formats/output_buffer.h"
+#include <memory>
+
+#include "formats/point_writer.h"
 
 namespace bspc::formats {
 
-/// Writes the header of a PLY file, binary_little_endian, in the type of the positions; 64-bit
-/// integers, which PLY has not, as doubles, and columns as uint or, if that is too small, double.
-void writePlyHeader(std::string& text, const ModelLayout& layout);
-
-/// Writes points behind the header. Throws FormatError for an integer that a double does not hold.
-void writePlyRecords(OutputBuffer& out, const ModelLayout& layout, const ModelView& model);
+/// Writes PLY, binary_little_endian, in the types of positions and arrays; 64-bit integers, which
+/// PLY has not, become doubles, and FormatError is thrown for one that a double does not hold.
+/// Properties are named as columnsOf() says.
+std::unique_ptr<PointWriter> plyWriter(const ModelLayout& layout);
 
 }  // namespace bspc::formats

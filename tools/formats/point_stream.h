@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "bspc/arrays.h"
+#include "bspc/span.h"
 #include "formats/model.h"
 
 namespace bspc::formats {
@@ -18,13 +20,16 @@ class PointStream {
   PointStream& operator=(const PointStream&) = delete;
 
   /// Writes the next `count` points to `positions`: three numbers of info().type each, packed, in
-  /// the byte order of this machine. Returns how many there were; fewer than `count` (0 from then
-  /// on) only at the end, when the whole file has been read and checked. Throws FormatError, or
-  /// Error(Cancelled) once the progress callback asks to stop; the stream is then spent.
-  virtual std::size_t read(std::uint8_t* positions, std::size_t count) = 0;
+  /// the byte order of this machine. Their tuples are appended to `values`, which has one array for
+  /// each of info().arrays, or none, and arrays are passed over. Returns how many points there
+  /// were; fewer than `count` (0 from then on) only at the end, when the whole file has been read
+  /// and checked. Throws FormatError, or Error(Cancelled) once the progress callback asks to stop;
+  /// the stream is then spent.
+  virtual std::size_t read(std::uint8_t* positions, Span<ArrayValues> values,
+                           std::size_t count) = 0;
 
-  /// The type and what a header tells are known from the start; otherContent is complete only once
-  /// read() has returned fewer points than it was asked for.
+  /// The type, the arrays and what a header tells are known from the start; otherContent is
+  /// complete only once read() has returned fewer points than it was asked for.
   const ModelInfo& info() const { return info_; }
 
   /// For how many points there may be memory set aside: as many as the header claims, but never

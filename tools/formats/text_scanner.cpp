@@ -12,6 +12,18 @@ namespace {
 
 bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
 
+/// Characters of the quotation that the text starts with, in which two marks stand for one; 0 if it
+/// starts with none or the mark has no counterpart.
+std::size_t quotedSize(std::string_view text) {
+  if (text.substr(0, 1) != "\"") return 0;
+  for (std::size_t at = 1; at < text.size(); ++at) {
+    if (text[at] != '"') continue;
+    if (at + 1 == text.size() || text[at + 1] != '"') return at + 1;
+    ++at;
+  }
+  return 0;
+}
+
 }  // namespace
 
 bool TextScanner::nextLine() {
@@ -29,6 +41,7 @@ bool TextScanner::nextLine() {
   if (end == nullptr && searched == 0) return false;
   const std::size_t size = end != nullptr ? static_cast<std::size_t>(end - in_.data()) : searched;
   line_ = std::string_view(in_.data(), size);
+  start_ = in_.offset();
   in_.consume(end != nullptr ? size + 1 : size);
   if (!line_.empty() && line_.back() == '\r') line_.remove_suffix(1);
   if (number_ == 0 && line_.substr(0, 3) == "\xEF\xBB\xBF") line_.remove_prefix(3);
@@ -51,7 +64,7 @@ bool TextScanner::nextField(char separator, std::string_view& field) {
   field = rest();
   token_ = cursor_;
   if (field.empty()) return false;
-  const std::size_t size = std::min(field.find(separator), field.size());
+  const std::size_t size = std::min(field.find(separator, quotedSize(field)), field.size());
   cursor_ = std::min(cursor_ + size + 1, line_.size());
   field = field.substr(0, size);
   while (!field.empty() && isBlank(field.back())) field.remove_suffix(1);
@@ -65,6 +78,22 @@ std::string_view TextScanner::rest() {
 
 void TextScanner::cutComment(char mark) {
   line_ = line_.substr(0, std::min(line_.find(mark), line_.size()));
+}
+
+void TextScanner::cutOuterComment(char mark) {
+  bool isQuoted = false;
+  for (std::size_t at = 0; at < line_.size(); ++at) {
+    if (line_[at] == '"') isQuoted = !isQuoted;
+    if (line_[at] != mark || isQuoted || (at > 0 && !isBlank(line_[at - 1]))) continue;
+    line_ = line_.substr(0, at);
+    return;
+  }
+}
+
+void TextScanner::goTo(const Place& place) {
+  in_.seek(place.offset);
+  number_ = place.lineNumber - 1;
+  nextLine();
 }
 
 void TextScanner::failAt(std::size_t column, const std::string& what) const {

@@ -28,17 +28,34 @@ class TextScanner {
     return true;
   }
   /// The next field before `separator` without the blanks around it, which may leave nothing;
-  /// false at the end of the line, even behind a last separator. A blank means nextToken().
+  /// false at the end of the line, even behind a last separator. Separators between quotation marks
+  /// belong to the field. A blank means nextToken().
   bool nextField(char separator, std::string_view& field);
 
   /// What is left of the line, without the blanks in front.
   std::string_view rest();
+  /// Copies the line, so that it outlives what is done to the input.
+  void keepLine() {
+    kept_ = line_;
+    line_ = kept_;
+  }
   /// Goes back to the start of the line.
   void rewindLine() { cursor_ = token_ = 0; }
   /// Forgets the line from `mark` on.
   void cutComment(char mark);
+  /// The same, but only if a blank is in front of the mark and it is not between quotation marks.
+  void cutOuterComment(char mark);
   /// Whether the line ends in this character.
   bool endsWith(char mark) const { return !line_.empty() && line_.back() == mark; }
+
+  /// The start of this line, to go back to in an input that can.
+  struct Place {
+    std::uint64_t offset = 0;
+    std::uint64_t lineNumber = 0;
+  };
+  Place place() const { return {start_, number_}; }
+  /// Reads that line once more.
+  void goTo(const Place& place);
 
   std::uint64_t lineNumber() const { return number_; }
   /// Throws FormatError with the place of the last token or field.
@@ -66,9 +83,12 @@ class TextScanner {
 
   InputBuffer& in_;
   std::string_view line_;
+  std::string kept_;
   std::size_t cursor_ = 0;
   std::size_t token_ = 0;
   std::uint64_t number_ = 0;
+  /// Byte of the input at which the line starts.
+  std::uint64_t start_ = 0;
 };
 
 }  // namespace bspc::formats

@@ -16,6 +16,9 @@ std::string counted(std::uint64_t count, const std::string& one, const std::stri
 /// can bring escape sequences or pages of text into a message.
 std::string quoted(std::string_view text);
 
+/// The text if it is valid UTF-8, else with each of its bytes as the character of Latin-1.
+std::string utf8(std::string_view text);
+
 /// The text with A to Z made small, whatever the locale.
 std::string lowerCase(std::string_view text);
 

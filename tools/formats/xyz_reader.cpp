@@ -2,54 +2,40 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "formats/array_tuples.h"
 #include "formats/position_text.h"
+#include "formats/scalar_visit.h"
 #include "formats/text_scanner.h"
 #include "formats/wording.h"
+#include "formats/xyz_columns.h"
+#include "formats/xyz_layout.h"
 
 namespace bspc::formats {
 
 namespace {
 
-/// The name without quotation marks around it.
-std::string_view unquoted(std::string_view name) {
-  const bool isQuoted = name.size() >= 2 && name.front() == '"' && name.back() == '"';
-  return isQuoted ? name.substr(1, name.size() - 2) : name;
-}
-
-/// Which coordinate a column of this name is, 3 for none. ParaView calls them Points:0 to Points:2.
-std::size_t axisFromName(std::string_view name) {
-  const std::string small = lowerCase(name);
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::string digit = std::to_string(k);
-    if (small == std::string(1, "xyz"[k]) || small == "points:" + digit ||
-        small == "points_" + digit) {
-      return k;
-    }
-  }
-  return 3;
-}
-
 class XyzStream : public PointStream {
  public:
   explicit XyzStream(InputBuffer in) : in_(std::move(in)), text_(in_) {
     info_.type = kTextType;
-    atPoint_ = nextContent();
-    if (!atPoint_) return;
-    chooseSeparator();
-    readLayout();
-    if (!names_.empty()) atPoint_ = nextContent();
+    layout_ = readXyzLayout(text_);
+    const std::vector<GroupedColumns> groups = readXyzColumns(in_, text_, layout_);
+    info_.arrays = arraysOf(groups);
+    targets_ = targetsOf(groups, layout_.axisOf.size());
   }
 
-  std::size_t read(std::uint8_t* positions, std::size_t count) override {
+  std::size_t read(std::uint8_t* positions, Span<ArrayValues> values, std::size_t count) override {
     std::size_t done = 0;
-    for (; done < count && atPoint_; ++done) {
-      storePosition(positions, done, readPoint());
-      atPoint_ = nextContent();
+    for (; done < count && layout_.atPoint; ++done) {
+      storePosition(positions, done, readPoint(values));
+      layout_.atPoint = nextXyzContent(text_, layout_.separator);
     }
     // Columns without points hold nothing.
     if (done > 0 && info_.otherContent.empty()) nameOtherContent();
@@ -57,112 +43,74 @@ class XyzStream : public PointStream {
   }
 
  private:
-  /// Moves to the next line that has something in it beside a comment.
-  bool nextContent() {
-    while (text_.nextLine()) {
-      text_.cutComment('#');
-      if (text_.rest().empty()) continue;
-      text_.rewindLine();
-      return true;
-    }
-    return false;
-  }
-
-  void chooseSeparator() {
-    const std::string_view line = text_.rest();
-    for (const char separator : {';', ','}) {
-      if (line.find(separator) == std::string_view::npos) continue;
-      separator_ = separator;
-      break;
-    }
-    text_.rewindLine();
-  }
-
-  /// Finds the columns from the first line: names if its first field is no number.
-  void readLayout() {
-    std::string_view field;
-    double number = 0;
-    text_.nextField(separator_, field);
-    const bool hasNames = parseNumber(field, number) == NumberStatus::Malformed;
-    text_.rewindLine();
-    for (columns_ = 0; text_.nextField(separator_, field); ++columns_) {
-      if (hasNames) takeName(field);
-    }
-    text_.rewindLine();
-    if (!hasNames) {
-      axes_ = {0, 1, 2};
-    } else if (std::count(found_.begin(), found_.end(), true) < 3) {
-      failWithoutAxes();
-    }
-    axisOf_.assign(std::max<std::size_t>(columns_, 3), 3);
-    for (std::size_t k = 0; k < 3; ++k) axisOf_[axes_[k]] = k;
-  }
-
-  void takeName(std::string_view field) {
-    // CloudCompare writes "//X Y Z".
-    if (columns_ == 0 && field.substr(0, 2) == "//") field.remove_prefix(2);
-    const std::string_view name = unquoted(field);
-    const std::size_t axis = axisFromName(name);
-    if (axis < 3) {
-      if (found_[axis]) text_.fail("a second column " + quoted(name));
-      found_[axis] = true;
-      axes_[axis] = columns_;
-    }
-    names_.emplace_back(name);
-  }
-
-  [[noreturn]] void failWithoutAxes() const {
-    std::string names;
-    for (std::size_t i = 0; i < names_.size() && i < 8; ++i) {
-      names += (i > 0 ? ", " : "") + quoted(names_[i]);
-    }
-    text_.fail("expected three numbers, or names of columns with x, y and z among them, found " +
-               names);
-  }
-
-  std::array<double, 3> readPoint() {
+  std::array<double, 3> readPoint(Span<ArrayValues> values) {
+    const std::vector<std::size_t>& axisOf = layout_.axisOf;
     std::array<double, 3> position{};
     std::string_view field;
     std::size_t column = 0;
-    for (; text_.nextField(separator_, field); ++column) {
-      if (column >= axisOf_.size()) {
-        text_.fail("expected " + counted(axisOf_.size(), "column", "columns") +
+    appendTuple(values);
+    for (; text_.nextField(layout_.separator, field); ++column) {
+      if (column >= axisOf.size()) {
+        text_.fail("expected " + counted(axisOf.size(), "column", "columns") +
                    " as in the first line, found more");
       }
-      const std::size_t axis = axisOf_[column];
-      if (axis == 3) continue;
-      position[axis] = text_.number<double>(field, [axis] { return std::string(1, "xyz"[axis]); });
+      const std::size_t axis = axisOf[column];
+      if (axis == 3) {
+        store(column, field, values);
+      } else {
+        position[axis] =
+            text_.number<double>(field, [axis] { return std::string(1, "xyz"[axis]); });
+      }
     }
     // An empty last column leaves nothing behind its separator.
-    const bool endsEmpty = separator_ != ' ' && text_.endsWith(separator_);
-    if (endsEmpty && column < axisOf_.size() && axisOf_[column] == 3) ++column;
-    if (column < axisOf_.size()) {
-      text_.failAtEnd("expected " + counted(axisOf_.size(), "column", "columns") + ", found " +
+    const bool endsEmpty = layout_.separator != ' ' && text_.endsWith(layout_.separator);
+    if (endsEmpty && column < axisOf.size() && axisOf[column] == 3) store(column++, "", values);
+    if (column < axisOf.size()) {
+      text_.failAtEnd("expected " + counted(axisOf.size(), "column", "columns") + ", found " +
                       grouped(column));
     }
     return position;
   }
 
+  /// Puts the field into the last tuple of its array.
+  void store(std::size_t column, std::string_view field, Span<ArrayValues> values) {
+    const ColumnTarget& target = targets_[column];
+    if (values.empty() || target.array == ColumnTarget::kNone) return;
+    ArrayValues& array = values[target.array];
+    if (array.type == ScalarType::String) {
+      array.strings.back() = utf8(unquotedField(field));
+      return;
+    }
+    visitScalar(array.type, [&](auto value) {
+      if constexpr (std::is_floating_point_v<decltype(value)>) {
+        if (field.empty()) field = "nan";
+      }
+      if (parseNumber(field, value) != NumberStatus::Ok) failType(column, field);
+      std::memcpy(target.at(values), &value, sizeof(value));
+    });
+  }
+
+  /// Only the start of a pipe was looked at for types.
+  [[noreturn]] void failType(std::size_t column, std::string_view field) const {
+    text_.fail("the column " + quoted(layout_.names[column]) + " has " +
+               scalarName(info_.arrays[targets_[column].array].type) +
+               " numbers at the start of the text, found " +
+               (field.empty() ? "nothing" : quoted(field)) +
+               "; of a file that is no pipe all lines are looked at before");
+  }
+
   void nameOtherContent() {
-    for (std::size_t column = 0; column < axisOf_.size(); ++column) {
-      if (axisOf_[column] < 3) continue;
-      const bool isNamed = column < names_.size() && !names_[column].empty();
-      info_.otherContent.push_back("column " +
-                                   (isNamed ? quoted(names_[column]) : grouped(column + 1)));
+    if (!layout_.names.empty()) return;
+    for (std::size_t column = 3; column < layout_.axisOf.size(); ++column) {
+      info_.otherContent.push_back(
+          {"column " + grouped(column + 1) + " without a name", OtherContent::Kind::Rest});
     }
   }
 
   InputBuffer in_;
   TextScanner text_;
-  /// Whether the line is a point that has not been read yet.
-  bool atPoint_ = false;
-  char separator_ = ' ';
-  std::size_t columns_ = 0;
-  std::vector<std::string> names_;
-  std::array<bool, 3> found_{};
-  std::array<std::size_t, 3> axes_{};
-  /// Which coordinate each column is, 3 for none.
-  std::vector<std::size_t> axisOf_;
+  XyzLayout layout_;
+  std::vector<ColumnTarget> targets_;
 };
 
 }  // namespace

@@ -1,16 +1,16 @@
 #pragma once
 
-#include <string>
+#include <memory>
 
-#include "formats/model.h"
+#include "formats/point_writer.h"
 
 namespace bspc::formats {
 
-/// Writes what stands in front of the points of an XYZ file: a comment that names the columns, if
-/// there are any beside x, y and z.
-void writeXyzHeader(std::string& text, const ModelLayout& layout);
+/// Writes a point a line with blanks between; a comment in front names the columns if there are any
+/// beside x, y and z.
+std::unique_ptr<PointWriter> xyzWriter(const ModelLayout& layout);
 
-/// Writes the line of names of a CSV file.
-void writeCsvHeader(std::string& text, const ModelLayout& layout);
+/// Writes a line of names and a point a line with commas between.
+std::unique_ptr<PointWriter> csvWriter(const ModelLayout& layout);
 
 }  // namespace bspc::formats

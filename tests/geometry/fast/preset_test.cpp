@@ -167,10 +167,10 @@ TEST(InputOrder, LayersAreSamplesOfIt) {
   const DecodedTile decoded = FastMethod().decode(coarse, {});
   ASSERT_EQ(decoded.points.size(), coded.coarse[1].representatives);
   for (std::size_t i = 0; i < decoded.points.size(); ++i) {
-    GridPoint p = points[64 * i];
+    GridPoint p = points[128 * i];
     for (std::size_t k = 0; k < 3; ++k) p[k] -= tile.lower[k];
     ASSERT_EQ(decoded.points[i], p);
-    ASSERT_EQ(decoded.counts[i], std::min<std::size_t>(64, points.size() - 64 * i));
+    ASSERT_EQ(decoded.counts[i], std::min<std::size_t>(128, points.size() - 128 * i));
   }
 }
 

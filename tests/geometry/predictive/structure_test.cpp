@@ -151,7 +151,8 @@ TEST(PredictiveStructure, LatticesOfAxesAreUsed) {
   std::vector<GridPoint> free;
   for (int i = 0; i < 1500; ++i) {
     GridPoint p{};
-    for (std::uint32_t& x : p) x = static_cast<std::uint32_t>(std::lround(random() % 300 * 11.7));
+    for (std::uint32_t& x : p)
+      x = static_cast<std::uint32_t>(std::lround(static_cast<double>(random() % 300) * 11.7));
     aligned.push_back(p);
     for (std::uint32_t& x : p) x += static_cast<std::uint32_t>(random() % 11);
     free.push_back(p);

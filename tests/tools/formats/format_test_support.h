@@ -14,7 +14,9 @@
 #include <utility>
 #include <vector>
 
+#include "formats/array_tuples.h"
 #include "formats/model_io.h"
+#include "formats/model_writer.h"
 
 namespace bspc::formats::test {
 
@@ -51,19 +53,78 @@ void put(std::string& out, Order order, T value) {
   out.append(bytes.data(), bytes.size());
 }
 
+/// What a model has that is neither points nor arrays, in the words of its reader.
+inline std::vector<std::string> contentOf(const ModelInfo& model) {
+  std::vector<std::string> phrases;
+  for (const OtherContent& content : model.otherContent) phrases.push_back(content.phrase);
+  return phrases;
+}
+
+/// "name 3 x float32" for each array.
+inline std::vector<std::string> arraysOf(const ModelInfo& model) {
+  std::vector<std::string> texts;
+  for (const ArrayDescription& array : model.arrays) {
+    texts.push_back(array.name + " " + std::to_string(array.components) + " x " +
+                    scalarName(array.type));
+  }
+  return texts;
+}
+
+inline void expectSameArrays(const Model& a, const Model& b) {
+  EXPECT_EQ(arraysOf(a), arraysOf(b));
+  ASSERT_EQ(a.values.size(), a.arrays.size());
+  ASSERT_EQ(a.values.size(), b.values.size());
+  for (std::size_t i = 0; i < a.values.size(); ++i) {
+    EXPECT_EQ(a.values[i].values, b.values[i].values) << a.values[i].name;
+    EXPECT_EQ(a.values[i].strings, b.values[i].strings) << a.values[i].name;
+    EXPECT_EQ(a.values[i].tuples(), a.size()) << a.values[i].name;
+  }
+}
+
+/// The array of this name, empty if there is none.
+inline ArrayValues arrayOf(const Model& model, const std::string& name) {
+  for (const ArrayValues& array : model.values) {
+    if (array.name == name) return array;
+  }
+  ADD_FAILURE() << "there is no array " << name;
+  return {};
+}
+
+template <class T>
+std::vector<T> valuesOf(const Model& model, const std::string& name) {
+  const ArrayValues array = arrayOf(model, name);
+  std::vector<T> values(array.values.size() / sizeof(T));
+  if (!values.empty()) std::memcpy(values.data(), array.values.data(), array.values.size());
+  return values;
+}
+
+/// An array of numbers that are in memory elsewhere.
+template <class T>
+ArrayView viewOf(const std::string& name, ScalarType type, const std::vector<T>& values,
+                 std::uint32_t components = 1) {
+  ArrayView view;
+  view.name = name;
+  view.type = type;
+  view.components = components;
+  view.tuples = values.size() / components;
+  view.data = values.data();
+  return view;
+}
+
 /// Reads a model in pieces of `count` points.
 inline Model readInPieces(std::istream& in, Format format, std::size_t count) {
   const std::unique_ptr<PointStream> points = openPointStream(in, format);
   Model model;
+  model.values = emptyArrays(points->info().arrays);
   std::vector<std::uint8_t> piece(count * 3 * scalarSize(points->info().type));
   const ScalarType type = points->info().type;
   std::size_t got = count;
   while (got == count) {
-    got = points->read(piece.data(), count);
+    got = points->read(piece.data(), model.values, count);
     const std::size_t bytes = got * piece.size() / count;
     model.positions.insert(model.positions.end(), piece.data(), piece.data() + bytes);
   }
-  EXPECT_EQ(points->read(piece.data(), count), 0U);
+  EXPECT_EQ(points->read(piece.data(), model.values, count), 0U);
   static_cast<ModelInfo&>(model) = points->info();
   EXPECT_EQ(model.type, type);
   return model;
@@ -83,8 +144,9 @@ inline Model read(const std::string& text, Format format) {
   for (const Model& other : others) {
     EXPECT_EQ(model.type, other.type);
     EXPECT_EQ(model.positions, other.positions);
-    EXPECT_EQ(model.otherContent, other.otherContent);
-    EXPECT_EQ(model.comments, other.comments);
+    EXPECT_EQ(contentOf(model), contentOf(other));
+    EXPECT_EQ(model.metadata.entries, other.metadata.entries);
+    expectSameArrays(model, other);
   }
   return model;
 }
@@ -106,9 +168,26 @@ inline std::string failure(const std::string& text, Format format) {
   return "";
 }
 
-inline std::string written(const ModelView& model, Format format) {
+inline std::string written(const PointSetView& points, Format format) {
   std::ostringstream out;
-  writeModel(out, format, model);
+  writeModel(out, format, points);
+  return out.str();
+}
+
+/// The same with what a model says beside points and arrays.
+inline std::string writtenAgain(const Model& model, Format format) {
+  ModelLayout layout;
+  layout.type = model.type;
+  layout.points = model.size();
+  layout.arrays = model.arrays;
+  layout.metadata = model.metadata;
+  layout.keepsOrder = true;
+  layout.lattice = model.lattice;
+  layout.mayPatch = true;
+  std::ostringstream out;
+  ModelWriter writer(out, format, layout);
+  writer.append(model.view());
+  writer.finish();
   return out.str();
 }
 
@@ -151,6 +230,10 @@ inline void expectNoMutationHarms(const std::string& good, Format format, int mu
       const Model model = readModel(in, format);
       // Memory follows the bytes that there are, not what they claim.
       EXPECT_LE(model.positions.size(), bytesOfByte * (text.size() + 1));
+      for (const ArrayValues& array : model.values) {
+        EXPECT_LE(array.values.size(), bytesOfByte * (text.size() + 1));
+        EXPECT_EQ(array.tuples(), model.size());
+      }
     } catch (const FormatError& error) {
       ++refused;
       EXPECT_NE(std::string(error.what()), "");

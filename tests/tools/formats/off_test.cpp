@@ -4,10 +4,12 @@ namespace bspc::formats {
 
 namespace {
 
+using test::contentOf;
 using test::expectInMessage;
 using test::failure;
 using test::numbers;
 using test::read;
+using test::viewOf;
 using test::written;
 
 const std::vector<double> kTwo{1, 2, 3, 4, 5, 6.5};
@@ -28,12 +30,25 @@ TEST(Off, CountsMayStandAnywhere) {
 TEST(Off, EverythingElseIsNamed) {
   const Model mesh = read("OFF\n3 1 3\n0 0 0\n0 1 0\n1 0 0\n3 0 1 2 255 0 0\n", Format::Off);
   EXPECT_EQ(mesh.size(), 3U);
-  EXPECT_EQ(mesh.otherContent, (std::vector<std::string>{"1 face"}));
-  const Model coloured = read("STCNOFF\n1 0 0\n1 2 3 0 0 1 255 0 0 255 0.5 0.5\n", Format::Off);
-  EXPECT_EQ(coloured.otherContent, (std::vector<std::string>{"vertex normals", "vertex colours",
-                                                             "vertex texture coordinates"}));
+  EXPECT_EQ(contentOf(mesh), (std::vector<std::string>{"1 face"}));
   const Model further = read("OFF\n1 0 0\n1 2 3 0 0 1\n", Format::Off);
-  EXPECT_EQ(further.otherContent, (std::vector<std::string>{"further numbers of 1 vertex"}));
+  EXPECT_EQ(contentOf(further), (std::vector<std::string>{"further numbers of 1 vertex"}));
+}
+
+TEST(Off, WhatTheKeywordPromisesAreArrays) {
+  const Model all = read("STCNOFF\n1 0 0\n1 2 3 0 0 1 255 0 0 255 0.5 0.25\n", Format::Off);
+  EXPECT_TRUE(all.otherContent.empty());
+  EXPECT_EQ(test::arraysOf(all),
+            (std::vector<std::string>{"Normals 3 x float64", "RGBA 4 x float64",
+                                      "TextureCoordinates 2 x float64"}));
+  EXPECT_EQ(test::valuesOf<double>(all, "Normals"), (std::vector<double>{0, 0, 1}));
+  EXPECT_EQ(test::valuesOf<double>(all, "RGBA"), (std::vector<double>{255, 0, 0, 255}));
+  EXPECT_EQ(test::valuesOf<double>(all, "TextureCoordinates"), (std::vector<double>{0.5, 0.25}));
+  expectInMessage(failure("COFF\n2 0 0\n1 2 3 4 5 6\n1 2 3\n", Format::Off), {"line 4", "first"});
+  // Numbers that the keyword does not promise, or fewer than it does.
+  EXPECT_EQ(contentOf(read("COFF\n1 0 0\n1 2 3 4\n", Format::Off)),
+            (std::vector<std::string>{"further numbers of 1 vertex"}));
+  EXPECT_TRUE(read("COFF\n1 0 0\n1 2 3\n", Format::Off).otherContent.empty());
 }
 
 TEST(Off, OtherKindsAreRefusedByName) {
@@ -61,14 +76,13 @@ TEST(Off, HugeCountsCostNothing) {
 }
 
 TEST(Off, WrittenFilesAreReadBack) {
-  ModelView view;
-  view.points = PointSetView(kTwo.data(), 2);
+  PointSetView view = PointSetView(kTwo.data(), 2);
   const std::string text = written(view, Format::Off);
   EXPECT_EQ(text, "OFF\n2 0 0\n1 2 3\n4 5 6.5\n");
   EXPECT_EQ(numbers<double>(read(text, Format::Off)), kTwo);
   EXPECT_EQ(read(written({}, Format::Off), Format::Off).size(), 0U);
   const std::vector<std::uint64_t> counts{1, 2};
-  view.columns.push_back({"PointCount", counts});
+  view.addArray(viewOf("PointCount", ScalarType::UInt64, counts));
   EXPECT_THROW(written(view, Format::Off), FormatError);
 }
 

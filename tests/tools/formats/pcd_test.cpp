@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "formats/las_records.h"
 #include "tools/formats/format_test_support.h"
 
 namespace bspc::formats {
@@ -14,6 +15,9 @@ using test::numbers;
 using test::Order;
 using test::put;
 using test::read;
+using test::valuesOf;
+using test::viewOf;
+using test::written;
 
 std::string header(const std::string& fields, const std::string& size, const std::string& data,
                    const std::string& extent = "WIDTH 2\nHEIGHT 1\n") {
@@ -92,7 +96,10 @@ void expectTypeIsRead(const std::string& letter, ScalarType expected, T y, doubl
     EXPECT_EQ(model.type, expected);
     const std::array<double, 3> position = model.view().position(0);
     EXPECT_EQ(position, (std::array<double, 3>{-2, shown, 3}));
-    EXPECT_EQ(model.otherContent, (std::vector<std::string>{"point field \"n\" (3 uint16)"}));
+    EXPECT_TRUE(model.otherContent.empty());
+    EXPECT_EQ(test::arraysOf(model), (std::vector<std::string>{"n 3 x uint16"}));
+    const std::uint16_t seven = data == "ascii" ? 7 : 0x0707;
+    EXPECT_EQ(valuesOf<std::uint16_t>(model, "n"), (std::vector<std::uint16_t>(3, seven)));
   }
 }
 
@@ -136,9 +143,106 @@ TEST(Pcd, OrganisedCloudsKeepTheirEmptyPlaces) {
   ASSERT_EQ(values.size(), 12U);
   EXPECT_TRUE(std::isnan(values[3]) && std::isnan(values[7]));
   EXPECT_EQ(values[11], 7);
-  EXPECT_EQ(model.otherContent,
-            (std::vector<std::string>{"point field \"rgb\" (uint32)",
-                                      "the arrangement in 2 rows of 2 points", "a viewpoint"}));
+  EXPECT_TRUE(model.otherContent.empty());
+  EXPECT_TRUE(model.isOrganised);
+  EXPECT_EQ(metadataEntry(model.metadata, "pcd.width"), "2");
+  EXPECT_EQ(metadataEntry(model.metadata, "pcd.height"), "2");
+  EXPECT_EQ(metadataEntry(model.metadata, "pcd.viewpoint"), "0 0 1 1 0 0 0");
+}
+
+std::string scanHeader(const std::string& data) {
+  return "FIELDS x y z normal_x rgb normal_y label normal_z rgba\nSIZE 4 4 4 4 4 4 1 4 4\n"
+         "TYPE F F F F F F I F U\nCOUNT 1 1 1 1 1 1 1 1 1\nWIDTH 1\nHEIGHT 2\n"
+         "VIEWPOINT 0 0 1 1 0 0 0\nPOINTS 2\nDATA " +
+         data + "\n";
+}
+
+float floatOf(std::uint32_t bits) {
+  float value = 0;
+  std::memcpy(&value, &bits, sizeof(value));
+  return value;
+}
+
+TEST(Pcd, PackedColoursAndNormalsAreArraysInEveryEncoding) {
+  std::string binary;
+  std::string fields;
+  const std::array<float, 6> positions{1, 2, 3, 4, 5, 6};
+  const std::uint32_t colour = 0x00102030;
+  for (int i = 0; i < 2; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) put(binary, Order::Little, positions[3 * i + k]);
+    put(binary, Order::Little, 0.5F);
+    put(binary, Order::Little, colour);
+    put(binary, Order::Little, -0.0F);
+    put(binary, Order::Little, std::int8_t{-3});
+    put(binary, Order::Little, 1.0F);
+    put(binary, Order::Little, std::uint32_t{0xFF405060});
+  }
+  std::size_t at = 0;
+  for (const std::size_t bytes : {4U, 4U, 4U, 4U, 4U, 4U, 1U, 4U, 4U}) {
+    for (std::size_t i = 0; i < 2; ++i) fields += binary.substr(at + 33 * i, bytes);
+    at += bytes;
+  }
+  std::ostringstream ascii;
+  ascii.precision(9);
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) ascii << positions[3 * i + k] << ' ';
+    ascii << "0.5 " << floatOf(colour) << " -0 -3 1 " << 0xFF405060U << '\n';
+  }
+  std::vector<Model> models;
+  models.push_back(read(scanHeader("binary") + binary, Format::Pcd));
+  models.push_back(read(scanHeader("binary_compressed") + compressed(fields), Format::Pcd));
+  models.push_back(read(scanHeader("ascii") + ascii.str(), Format::Pcd));
+  for (const Model& model : models) {
+    test::expectSameArrays(models.front(), model);
+    EXPECT_EQ(numbers<float>(model), (std::vector<float>{1, 2, 3, 4, 5, 6}));
+  }
+  const Model& model = models.front();
+  EXPECT_EQ(test::arraysOf(model), (std::vector<std::string>{"Normals 3 x float32", "RGB 3 x uint8",
+                                                             "rgb_padding 1 x uint8",
+                                                             "label 1 x int8", "RGBA 4 x uint8"}));
+  EXPECT_EQ(valuesOf<std::uint8_t>(model, "RGB"),
+            (std::vector<std::uint8_t>{0x10, 0x20, 0x30, 0x10, 0x20, 0x30}));
+  EXPECT_EQ(valuesOf<std::uint8_t>(model, "RGBA")[3], 0xFF);
+  EXPECT_EQ(test::arrayOf(model, "Normals").componentNames,
+            (std::vector<std::string>{"nx", "ny", "nz"}));
+  const std::string back = test::writtenAgain(model, Format::Pcd);
+  expectInMessage(
+      back, {"FIELDS x y z normal_x normal_y normal_z rgb label rgba\n", "TYPE F F F F F F F I U\n",
+             "WIDTH 1\nHEIGHT 2\n", "VIEWPOINT 0 0 1 1 0 0 0\n"});
+  test::expectSameArrays(model, read(back, Format::Pcd));
+}
+
+TEST(Pcd, FieldsOfSeveralNumbersAndOfEveryTypeComeBack) {
+  const std::vector<double> xyz{0.1, 2, 3};
+  const std::vector<std::int64_t> large{INT64_MIN};
+  const std::vector<std::uint16_t> histogram{1, 2, 3, 4, 65535};
+  PointSetView view(xyz.data(), 1);
+  view.addArray(viewOf("large", ScalarType::Int64, large));
+  view.addArray(viewOf("a histogram", ScalarType::UInt16, histogram, 5));
+  const Model back = read(written(view, Format::Pcd), Format::Pcd);
+  EXPECT_EQ(numbers<double>(back), xyz);
+  EXPECT_EQ(test::arraysOf(back),
+            (std::vector<std::string>{"large 1 x int64", "a_histogram 5 x uint16"}));
+  EXPECT_EQ(valuesOf<std::int64_t>(back, "large"), large);
+  EXPECT_EQ(valuesOf<std::uint16_t>(back, "a_histogram"), histogram);
+}
+
+TEST(Pcd, ColoursOfOtherFormatsArePacked) {
+  const std::vector<float> xyz{1, 2, 3};
+  const std::vector<std::uint8_t> rgb{10, 20, 30};
+  PointSetView view(xyz.data(), 1);
+  ArrayView colours = viewOf("RGB", ScalarType::UInt8, rgb, 3);
+  colours.semantic = Semantic::Colours;
+  view.addArray(colours);
+  const std::string text = written(view, Format::Pcd);
+  expectInMessage(text, {"FIELDS x y z rgb\n", "TYPE F F F F\n"});
+  EXPECT_EQ(text.substr(text.size() - 4), std::string("\x1E\x14\x0A\0", 4));
+}
+
+TEST(Pcd, ALineTooShortForItsNumbersSetsNothingAside) {
+  const std::string head =
+      "FIELDS x y z n\nSIZE 4 4 4 8\nTYPE F F F F\nCOUNT 1 1 1 100000\nWIDTH 1\nDATA ascii\n";
+  expectInMessage(failure(head + "1 2 3 4\n", Format::Pcd), {"100,003 numbers", "found 4"});
 }
 
 TEST(Pcd, TheLinesOfTheHeaderMayStandInAnyOrder) {
@@ -245,7 +349,7 @@ TEST(Pcd, HugeCountsCostNothing) {
   expectInMessage(failure("FIELDS x y z n\nSIZE 4 4 4 8\nTYPE F F F F\n"
                           "COUNT 1 1 1 2305843009213693952\nWIDTH 1\nDATA binary\n",
                           Format::Pcd),
-                  {"\"n\"", "1 GiB"});
+                  {"\"n\"", "1 MiB"});
 }
 
 /// Numbers of which many are the same, for LZF to find.
@@ -259,6 +363,10 @@ TEST(Pcd, NoMutationHarms) {
   test::expectNoMutationHarms(header(kXyz, kFloats, "ascii") + "0.1 2 -3\n4 5e-7 6\n", Format::Pcd,
                               3000);
   test::expectNoMutationHarms(header(kXyz, kFloats, "binary") + bytesOf(kTwo), Format::Pcd, 3000);
+  test::expectNoMutationHarms(
+      scanHeader("ascii") + "1 2 3 0.5 1e-40 0 -3 1 7\n4 5 6 0.5 1e-40 0 -3 1 4278190080\n",
+      Format::Pcd, 3000, 200);
+  test::expectNoMutationHarms(scanHeader("binary") + std::string(66, '\5'), Format::Pcd, 3000, 200);
   const std::vector<float> many = stairs(300);
   // LZF data may grow 88-fold, and 3 bytes become 24 where types meet in float64.
   constexpr std::size_t kGrowth = std::size_t{88} * 8;

@@ -1,15 +1,21 @@
+#include <cmath>
+
+#include "formats/las_records.h"
 #include "tools/formats/format_test_support.h"
 
 namespace bspc::formats {
 
 namespace {
 
+using test::contentOf;
 using test::expectInMessage;
 using test::failure;
 using test::numbers;
 using test::Order;
 using test::put;
 using test::read;
+using test::valuesOf;
+using test::viewOf;
 using test::written;
 
 std::string header(const std::string& format, const std::string& elements) {
@@ -23,7 +29,7 @@ TEST(Ply, AsciiKeepsTheTypeOfEachProperty) {
   const Model floats = read(header("ascii", "element vertex 2\n" + kXyz) + body, Format::Ply);
   EXPECT_EQ(floats.type, ScalarType::Float32);
   EXPECT_EQ(numbers<float>(floats), (std::vector<float>{0.1F, 2, 3, -4, 5, 0.06F}));
-  EXPECT_EQ(floats.comments, (std::vector<std::string>{"a scan"}));
+  EXPECT_EQ(metadataEntry(floats.metadata, "ply.comment"), "a scan");
   const Model doubles = read(header("ascii",
                                     "element vertex 2\nproperty double x\nproperty float64 y\n"
                                     "property double z\n") +
@@ -43,7 +49,7 @@ TEST(Ply, BothByteOrdersAreRead) {
   }
 }
 
-TEST(Ply, PropertiesAndElementsBesideThePositionsAreNamedAndPassedOver) {
+TEST(Ply, PropertiesBecomeArraysAndTheRestIsNamed) {
   std::string text =
       header("binary_big_endian",
              "element camera 1\nproperty list uchar short view\n"
@@ -65,9 +71,10 @@ TEST(Ply, PropertiesAndElementsBesideThePositionsAreNamedAndPassedOver) {
   put(text, Order::Big, std::int32_t{0});
   const Model model = read(text, Format::Ply);
   EXPECT_EQ(numbers<double>(model), (std::vector<double>{1, 2, 3, 10, 11, 12}));
-  EXPECT_EQ(model.otherContent,
-            (std::vector<std::string>{"1 \"camera\" element", "vertex property \"red\" (uint8)",
+  EXPECT_EQ(contentOf(model),
+            (std::vector<std::string>{"1 \"camera\" element",
                                       "vertex property \"w\" (list of float32)", "1 face"}));
+  EXPECT_EQ(valuesOf<std::uint8_t>(model, "red"), (std::vector<std::uint8_t>{200, 200}));
 }
 
 TEST(Ply, IntegersOfDifferentTypesMeetInOneThatHoldsThemAll) {
@@ -123,8 +130,7 @@ TEST(Ply, HugeCountsCostNothing) {
 
 template <class T>
 void expectWrittenIsRead(ScalarType type, const std::vector<T>& values) {
-  ModelView view;
-  view.points = PointSetView(values.data(), type, values.size() / 3, 0);
+  PointSetView view = PointSetView(values.data(), type, values.size() / 3, 0);
   const Model back = read(written(view, Format::Ply), Format::Ply);
   EXPECT_EQ(back.type, type);
   EXPECT_EQ(numbers<T>(back), values);
@@ -145,30 +151,139 @@ TEST(Ply, WrittenFilesAreReadBackInTheirType) {
 
 TEST(Ply, SixtyFourBitIntegersBecomeDoublesWhereThatIsExact) {
   std::vector<std::int64_t> values{std::int64_t{1} << 60, -3, 0};
-  ModelView view;
-  view.points = PointSetView(values.data(), ScalarType::Int64, 1, 0);
+  PointSetView view = PointSetView(values.data(), ScalarType::Int64, 1, 0);
   const Model back = read(written(view, Format::Ply), Format::Ply);
   EXPECT_EQ(numbers<double>(back), (std::vector<double>{1152921504606846976.0, -3, 0}));
   values[1] = (std::int64_t{1} << 53) + 1;
   EXPECT_THROW(written(view, Format::Ply), FormatError);
 }
 
-TEST(Ply, ColumnsBecomeProperties) {
+TEST(Ply, ArraysBecomeProperties) {
   const std::vector<float> xyz{1, 2, 3, 4, 5, 6};
   const std::vector<std::uint64_t> counts{7, 8};
-  ModelView view;
-  view.points = PointSetView(xyz.data(), 2);
-  view.columns.push_back({"PointCount", counts});
+  PointSetView view = PointSetView(xyz.data(), 2);
+  view.addArray(viewOf("PointCount", ScalarType::UInt64, counts));
   const Model back = read(written(view, Format::Ply), Format::Ply);
   EXPECT_EQ(numbers<float>(back), xyz);
-  EXPECT_EQ(back.otherContent,
-            (std::vector<std::string>{"vertex property \"PointCount\" (uint32)"}));
+  EXPECT_EQ(valuesOf<double>(back, "PointCount"), (std::vector<double>{7, 8}));
 }
 
-TEST(Ply, ColumnsMustFitThePoints) {
+TEST(Ply, ArraysMustFitThePoints) {
   const std::vector<std::uint64_t> counts{7, 8};
-  ModelView view;
-  view.columns.push_back({"PointCount", counts});
+  PointSetView view;
+  view.addArray(viewOf("PointCount", ScalarType::UInt64, counts));
+  EXPECT_THROW(written(view, Format::Ply), FormatError);
+}
+
+std::string everyType(const std::string& encoding) {
+  return header(encoding,
+                "element vertex 2\nproperty uchar a\n" + kXyz +
+                    "property char b\nproperty short c\nproperty ushort d\nproperty int e\n"
+                    "property uint f\nproperty float g\nproperty double h\n");
+}
+
+TEST(Ply, ArraysKeepTheirTypesInEveryEncoding) {
+  std::vector<Model> models;
+  models.push_back(read(everyType("ascii") +
+                            "255 1 2 3 -128 -32768 65535 -2147483648 4294967295 0.1 0.1\n"
+                            "0 4 5 6 127 32767 0 2147483647 0 -0 1e300\n",
+                        Format::Ply));
+  for (const Order order : {Order::Little, Order::Big}) {
+    std::string text =
+        everyType(order == Order::Little ? "binary_little_endian" : "binary_big_endian");
+    for (const bool first : {true, false}) {
+      put(text, order, static_cast<std::uint8_t>(first ? 255 : 0));
+      for (int k = 0; k < 3; ++k) put(text, order, static_cast<float>(k + (first ? 1 : 4)));
+      put(text, order, static_cast<std::int8_t>(first ? -128 : 127));
+      put(text, order, static_cast<std::int16_t>(first ? -32768 : 32767));
+      put(text, order, static_cast<std::uint16_t>(first ? 65535 : 0));
+      put(text, order, first ? INT32_MIN : INT32_MAX);
+      put(text, order, first ? UINT32_MAX : 0U);
+      put(text, order, first ? 0.1F : -0.0F);
+      put(text, order, first ? 0.1 : 1e300);
+    }
+    models.push_back(read(text, Format::Ply));
+  }
+  for (const Model& model : models) test::expectSameArrays(models.front(), model);
+  EXPECT_EQ(
+      test::arraysOf(models.front()),
+      (std::vector<std::string>{"a 1 x uint8", "b 1 x int8", "c 1 x int16", "d 1 x uint16",
+                                "e 1 x int32", "f 1 x uint32", "g 1 x float32", "h 1 x float64"}));
+  EXPECT_EQ(valuesOf<std::uint32_t>(models.front(), "f"),
+            (std::vector<std::uint32_t>{UINT32_MAX, 0}));
+  EXPECT_TRUE(std::signbit(valuesOf<float>(models.front(), "g")[1]));
+  test::expectSameArrays(models.front(),
+                         read(test::writtenAgain(models.front(), Format::Ply), Format::Ply));
+}
+
+TEST(Ply, NormalsColoursAndTextureCoordinatesAreArraysAndComeBackAsProperties) {
+  const std::string properties =
+      "property uchar blue\nproperty float nx\nproperty float ny\nproperty float nz\n"
+      "property uchar red\nproperty uchar green\nproperty double u\nproperty double v\n"
+      "property float alpha\nproperty int v:0\nproperty int v:1\n";
+  const Model model = read(header("ascii", "element vertex 1\n" + kXyz + properties) +
+                               "1 2 3 30 0 0.5 1 10 20 0.25 0.75 0.1 7 8\n",
+                           Format::Ply);
+  EXPECT_EQ(test::arraysOf(model),
+            (std::vector<std::string>{"RGB 3 x uint8", "Normals 3 x float32",
+                                      "TextureCoordinates 2 x float64", "alpha 1 x float32",
+                                      "v:0 1 x int32", "v:1 1 x int32"}));
+  EXPECT_EQ(valuesOf<std::uint8_t>(model, "RGB"), (std::vector<std::uint8_t>{10, 20, 30}));
+  EXPECT_EQ(test::arrayOf(model, "RGB").semantic, Semantic::Colours);
+  EXPECT_EQ(test::arrayOf(model, "Normals").semantic, Semantic::Normals);
+  EXPECT_EQ(test::arrayOf(model, "Normals").componentNames,
+            (std::vector<std::string>{"nx", "ny", "nz"}));
+  const std::string back = test::writtenAgain(model, Format::Ply);
+  for (const char* line :
+       {"property uchar red\nproperty uchar green\nproperty uchar blue\n", "property float nx\n",
+        "property double u\n", "property int v:1\n", "comment a scan\n"}) {
+    EXPECT_NE(back.find(line), std::string::npos) << back;
+  }
+  test::expectSameArrays(model, read(back, Format::Ply));
+}
+
+TEST(Ply, NumberedPropertiesAreOneArray) {
+  const Model model =
+      read(header("ascii", "element vertex 1\n" + kXyz + "property int id:0\nproperty int id:1\n") +
+               "1 2 3 7 8\n",
+           Format::Ply);
+  EXPECT_EQ(test::arraysOf(model), (std::vector<std::string>{"id 2 x int32"}));
+  test::expectSameArrays(model, read(test::writtenAgain(model, Format::Ply), Format::Ply));
+}
+
+TEST(Ply, ArraysOfOtherMakersGetNamesThatPlyCanHold) {
+  const std::vector<float> xyz{1, 2, 3};
+  const std::vector<float> three{4, 5, 6};
+  PointSetView view(xyz.data(), 1);
+  view.addArray(viewOf("Point Normals", ScalarType::Float32, three, 3));
+  view.addArray(viewOf("velocity", ScalarType::Float32, three, 3));
+  const std::string text = written(view, Format::Ply);
+  EXPECT_NE(text.find("property float Point_Normals:2\n"), std::string::npos);
+  ArrayView normals = viewOf("N", ScalarType::Float32, three, 3);
+  normals.semantic = Semantic::Normals;
+  view.addArray(normals);
+  EXPECT_NE(written(view, Format::Ply).find("property float nx\n"), std::string::npos);
+  EXPECT_EQ(test::arraysOf(read(text, Format::Ply)),
+            (std::vector<std::string>{"Point_Normals 3 x float32", "velocity 3 x float32"}));
+}
+
+TEST(Ply, NamesThatWouldClashAreRefused) {
+  const std::vector<float> xyz{1, 2, 3};
+  PointSetView view(xyz.data(), 1);
+  view.addArray(viewOf("x", ScalarType::Float32, std::vector<float>{1}));
+  try {
+    written(view, Format::Ply);
+    FAIL() << "not refused";
+  } catch (const FormatError& error) {
+    expectInMessage(error.what(), {"\"x\""});
+  }
+}
+
+TEST(Ply, TextsAreRefused) {
+  const std::vector<float> xyz{1, 2, 3};
+  const std::vector<std::string> texts{"tree"};
+  PointSetView view(xyz.data(), 1);
+  view.addArray(viewOf("label", ScalarType::String, texts));
   EXPECT_THROW(written(view, Format::Ply), FormatError);
 }
 

@@ -61,7 +61,7 @@ void expectMemoryStaysSmall(Format format, const std::string& head, const std::s
   std::size_t total = 0;
   std::size_t got = 0;
   do {
-    got = points->read(block.data(), 4096);
+    got = points->read(block.data(), {}, 4096);
     total += got;
   } while (got == 4096);
   EXPECT_EQ(total, kPieces * kPointsOfPiece);
@@ -104,10 +104,10 @@ TEST(PointStream, TheTypeIsKnownFromTheStartAndTheContentAtTheEnd) {
   EXPECT_EQ(points->info().type, ScalarType::Float64);
   std::vector<double> block(9);
   auto* bytes = reinterpret_cast<std::uint8_t*>(block.data());
-  EXPECT_EQ(points->read(bytes, 2), 2U);
+  EXPECT_EQ(points->read(bytes, {}, 2), 2U);
   EXPECT_TRUE(points->info().otherContent.empty());
-  EXPECT_EQ(points->read(bytes, 3), 0U);
-  EXPECT_EQ(points->info().otherContent, (std::vector<std::string>{"1 face"}));
+  EXPECT_EQ(points->read(bytes, {}, 3), 0U);
+  EXPECT_EQ(test::contentOf(points->info()), (std::vector<std::string>{"1 face"}));
   EXPECT_EQ(block[5], 6);
 }
 
@@ -116,8 +116,8 @@ TEST(PointStream, PointsBeforeAMistakeAreGivenOut) {
   const auto points = openPointStream(in, Format::Xyz);
   std::vector<double> block(6);
   auto* bytes = reinterpret_cast<std::uint8_t*>(block.data());
-  EXPECT_EQ(points->read(bytes, 2), 2U);
-  EXPECT_THROW(points->read(bytes, 2), FormatError);
+  EXPECT_EQ(points->read(bytes, {}, 2), 2U);
+  EXPECT_THROW(points->read(bytes, {}, 2), FormatError);
 }
 
 TEST(PointStream, MemoryIsSetAsideForWhatTheFileCanHold) {
@@ -136,7 +136,7 @@ TEST(PointStream, ReadingCanBeStopped) {
   const auto points = openPointStream(in, Format::Xyz, [&calls](double) { return ++calls < 4; });
   std::vector<std::uint8_t> block(std::size_t{24} * 4096);
   const auto readAll = [&] {
-    while (points->read(block.data(), 4096) == 4096) {
+    while (points->read(block.data(), {}, 4096) == 4096) {
     }
   };
   EXPECT_THROW(readAll(), Error);

@@ -1,6 +1,7 @@
 #include "geometry/fast/frequency_table.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -11,6 +12,17 @@ namespace {
 constexpr unsigned kMantissaBits = 2;    ///< stored of a weight behind its leading bit
 constexpr unsigned kMaxWeightBits = 12;  ///< of kFrequencyTotal itself
 constexpr unsigned kFirstLength = 6;     ///< what the first length is told relative to
+
+/// Bits that a symbol of each frequency takes.
+using SymbolBits = std::array<double, kFrequencyTotal + 1>;
+
+SymbolBits bitsByFrequency() {
+  SymbolBits bits{};
+  for (std::size_t f = 1; f < bits.size(); ++f) {
+    bits[f] = kFrequencyBits - std::log2(static_cast<double>(f));
+  }
+  return bits;
+}
 
 }  // namespace
 
@@ -56,11 +68,12 @@ FrequencyTable FrequencyTable::geometric(unsigned direct, std::uint32_t meanInHu
 }
 
 double FrequencyTable::cost(const SymbolCounts& counts) const {
+  static const SymbolBits symbolBits = bitsByFrequency();
   double bits = 0;
   for (unsigned s = 0; s < kSymbols; ++s) {
     if (counts[s] == 0) continue;
     if (frequency_[s] == 0) return std::numeric_limits<double>::infinity();
-    bits += counts[s] * (kFrequencyBits - std::log2(static_cast<double>(frequency_[s])));
+    bits += counts[s] * symbolBits[frequency_[s]];
   }
   return bits;
 }

@@ -10,7 +10,6 @@ namespace {
 
 constexpr std::size_t kLanes = 8;  ///< partial sums, so that compilers may use vectors
 constexpr std::size_t kTerms = 6;  ///< 1, X, Y, X², XY, Y²
-constexpr float kRoundingNoise = 0.12F;
 static_assert(kChunkPoints % kLanes == 0, "whole vectors only");
 
 /// log2 of a positive number, to about 0.01.
@@ -43,7 +42,7 @@ float sumOfLogs(const Values& values, float scale) {
 }
 
 unsigned classOf(float logs, std::size_t count, const ValueClasses& classes) {
-  const float cls = 2 * logs / static_cast<float>(count) + 0.5F;
+  const float cls = 2 * logs / static_cast<float>(count) + 0.35F;
   return cls <= 0 ? 0 : std::min(static_cast<unsigned>(cls), classes.last());
 }
 
@@ -181,14 +180,14 @@ void residualsOf(const Samples& s, std::size_t count, const float (&b)[kTerms], 
   const float f1 = filter ? kFilter1 / 128.0F : 0;
   const float f2 = filter ? kFilter2 / 128.0F : 0;
   for (std::size_t i = 0; i < kChunkPoints; ++i) {
-    e[i] = std::fabs(r[i + 2] - f1 * r[i + 1] - f2 * r[i]) + kRoundingNoise;
+    e[i] = std::fabs(r[i + 2] - f1 * r[i + 1] - f2 * r[i]);
   }
   std::fill(e + count, e + kChunkPoints, 0.0F);
 }
 
 /// Bits of a parameter's difference.
 float fieldBits(std::int64_t difference) {
-  return 1.0F + 1.28F * roughLog2(2.0F * std::fabs(static_cast<float>(difference)) + 1);
+  return 0.5F + roughLog2(2.0F * std::fabs(static_cast<float>(difference)) + 1);
 }
 
 Surface quantised(const float (&b)[kTerms], const Samples& samples, const Moments& m,

@@ -14,9 +14,9 @@ constexpr unsigned kScaleFlag = 1U << 3;
 constexpr unsigned kInputOrderFlag = 1U << 4;
 constexpr unsigned kKnownFlags = (1U << 5) - 1;
 constexpr unsigned kMaxScale = 31;
-/// One point in 64 goes to the next coarser layer: coding layers apart costs about ten bits for
-/// each bit a point then; with one in four it would be four fifths.
-constexpr unsigned kUsualRatioBits = 6;
+/// One point in 128 goes to the next coarser layer: points that lie so far apart cost about fifteen
+/// bits more than they would among all, which comes to about 1 % of a tile; with one in 64 to 2 %.
+constexpr unsigned kUsualRatioBits = 7;
 
 StepScale scaleOf(const double (&step)[3]) {
   const double finest = std::min({step[0], step[1], step[2]});
