@@ -8,6 +8,7 @@
 #include "container/container_reader.h"
 #include "decoded_tiles.h"
 #include "grid/float_grid.h"
+#include "mesh/mesh_decoder.h"
 #include "parallel.h"
 #include "point_selection.h"
 #include "progress_scale.h"
@@ -57,6 +58,23 @@ void addTileInfo(FileInfo& info, const container::TileLayout& layout,
   info.tiles.push_back(t);
 }
 
+MeshInfo describeMesh(const container::ContainerReader& file) {
+  const container::MeshRecord& mesh = file.head().mesh;
+  MeshInfo info;
+  info.vertices = mesh.counts.vertices;
+  info.lines = mesh.counts.lines;
+  info.faces = mesh.counts.faces;
+  info.bytes = file.meshBytes();
+  info.missing = file.meshMissing();
+  for (const ArrayDescription& array : mesh.arrays) {
+    ArrayInfo described;
+    static_cast<ArrayDescription&>(described) = array;
+    described.firstLevel = file.head().layers - 1;
+    info.arrays.push_back(std::move(described));
+  }
+  return info;
+}
+
 /// Whether the corners of a box of float bits are finite: all points in it then are.
 void requireFinite(const FileInfo& info) {
   if (!lattice::isFloatGrid(info.grid)) return;
@@ -87,6 +105,7 @@ FileInfo describe(const container::ContainerReader& file) {
   }
   info.metadata = file.head().metadata;
   info.keepsOrder = file.head().keepsOrder;
+  info.mesh = describeMesh(file);
   for (const container::TileRecord& tile : file.tiles()) addTileInfo(info, file.layout(), tile);
   if (info.points > 0) requireFinite(info);
   return info;
@@ -204,6 +223,10 @@ DecodedPoints Decoder::Impl::decode(const DecodeOptions& options) {
   result.complete = query.complete;
   if (query.thin && result.points.size() > *options.maxPoints) {
     thinTo(*options.maxPoints, result);
+  }
+  if (options.mesh && query.complete && file_.head().mesh.blocks > 0 && !file_.meshMissing()) {
+    const std::uint64_t used = all.bytes();
+    decodeMesh(file_, limits_.memoryBytes > used ? limits_.memoryBytes - used : 0, result);
   }
   return result;
 }

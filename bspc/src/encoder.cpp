@@ -1,5 +1,6 @@
 #include "bspc/encoder.h"
 
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "container/container_writer.h"
 #include "encoded_head.h"
 #include "grid/float_grid.h"
+#include "mesh/mesh_encoder.h"
 #include "progress_scale.h"
 #include "set_encoder.h"
 #include "shared_progress.h"
@@ -21,10 +23,21 @@ namespace {
 /// Share of the time that putting points on the grid takes.
 constexpr double kGridShare = 0.15;
 
+/// Input indices of the points that are kept, in order.
+std::vector<std::uint64_t> keptOrder(const GridFit& fit) {
+  std::vector<std::uint64_t> order = fit.sourceIndex;
+  if (order.empty()) {
+    order.resize(fit.points.size());
+    std::iota(order.begin(), order.end(), std::uint64_t{0});
+  }
+  return order;
+}
+
 }  // namespace
 
 EncodeReport encode(const PointSetView& points, ByteSink& sink, const EncodeOptions& options) {
   checkArrays(points.arrays(), points.size(), options);
+  const MeshEncoder mesh(points, options);
   checkMetadata(options.metadata);
   planCoding(options, points.size());  // wishes that cannot be met are refused before any work
   ProgressScale fitting(options.progress, 0, kGridShare);
@@ -55,11 +68,19 @@ EncodeReport encode(const PointSetView& points, ByteSink& sink, const EncodeOpti
     views.insert(views.begin(), lowHalvesView(halves));
   }
   const ArraySource arrays(views, hasHalves ? 1 : 0, options.originalIds);
-  container::ContainerWriter writer(sink, options.layout, beginFile(arrays, options, report));
+  container::FileHead head = beginFile(arrays, options, report);
+  head.mesh = mesh.record();
+  container::ContainerWriter writer(sink, options.layout, std::move(head));
   SharedProgress progress(coding, report.points);
-  SetEncoder(plan, options, arrays, progress, writer, report)
+  EncodeOptions pointOptions = options;
+  pointOptions.wantOrder = options.wantOrder || mesh.hasWork();
+  SetEncoder(plan, pointOptions, arrays, progress, writer, report)
       .encode(fit.points, fit.sourceIndex, &points);
-  writer.finish();
+  writer.finish([&](std::size_t /*block*/) {
+    if (options.keepOrder) report.order = keptOrder(fit);
+    return mesh.encode(fit, plan.arrayEffort, report.tiles, report.order, report);
+  });
+  if (!options.wantOrder) report.order = {};
   report.fileBytes = writer.bytesWritten();
   coding.report(1);
   return report;

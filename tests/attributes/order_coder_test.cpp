@@ -80,6 +80,15 @@ TEST(OrderCoder, DegenerateSetsComeBack) {
   }
 }
 
+TEST(OrderCoder, ManyEqualPointsTakeNoLongerThanOthers) {
+  // Their cells hold all of them: whatever walks through a cell at each step would take hours.
+  std::vector<GridPoint> points(300000, GridPoint{5, 5, 5});
+  points.push_back({0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF});
+  std::vector<std::uint32_t> order(points.size());
+  std::iota(order.rbegin(), order.rend(), 0U);
+  expectRoundTrip(points, order);
+}
+
 TEST(OrderCoder, WhatIsNoPermutationIsRefused) {
   const std::vector<GridPoint> points = test::scannedSphere(34, 3, 4000);
   EXPECT_THROW(encodeOrder(points, std::vector<std::uint32_t>{0, 1, 1}), Error);

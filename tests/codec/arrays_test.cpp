@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <random>
 #include <set>
 
 #include "bspc/error.h"
@@ -410,6 +411,47 @@ TEST(Arrays, FollowPointsThatALossyCodingMoves) {
       ASSERT_EQ(test::tupleOf(decoded.arrays[a], i), test::tupleOf(set.arrays()[a], ids[i]));
     }
   }
+}
+
+/// Scan lines of a lattice, with the time at which each point was taken.
+SetWithArrays timedScan(bool inOrder) {
+  constexpr std::size_t kSide = 60;
+  std::vector<GridPoint> points;
+  ArrayValues time;
+  time.name = "time";
+  time.type = ScalarType::Float64;
+  std::mt19937_64 random(8);
+  for (std::uint32_t y = 0; y < kSide; ++y) {
+    for (std::uint32_t x = 0; x < kSide; ++x) {
+      points.push_back({x * 10 + y % 3, y * 10, static_cast<std::uint32_t>(random() % 5)});
+      const std::size_t i = inOrder ? y * kSide + x : random();
+      const double t = 270000 + static_cast<double>(i) * 1.2207e-4;
+      const auto* bytes = reinterpret_cast<const std::uint8_t*>(&t);
+      time.values.insert(time.values.end(), bytes, bytes + sizeof t);
+    }
+  }
+  return {points, {time}};
+}
+
+TEST(Arrays, ThatFollowTheInputBringItsOrderIntoTheFile) {
+  EncodeOptions options;
+  options.method = Method::Kd;
+  EncodeReport report;
+  const SetWithArrays inOrder = timedScan(true);
+  const Bytes file = test::encoded(inOrder.view(), options, &report);
+  EXPECT_GT(report.orderBytes, 0U);
+  EXPECT_EQ(test::open(file).info().orderBytes, report.orderBytes);
+  EXPECT_FALSE(test::open(file).info().keepsOrder);
+  EXPECT_LT(report.orderBytes + report.arrays[0].bytes, inOrder.size() * 3);
+  EXPECT_EQ(sortedRows(decodedRows(file)), sortedRows(rowsOf(inOrder)));
+  // Who reads no array reads no order.
+  DecodeOptions points;
+  points.arrays = std::vector<std::string>{};
+  EXPECT_LT(test::open(file).cost(points).bytes, file.size() - report.orderBytes);
+
+  const SetWithArrays shuffled = timedScan(false);
+  test::encoded(shuffled.view(), options, &report);
+  EXPECT_EQ(report.orderBytes, 0U);
 }
 
 TEST(Metadata, ComesBackAsItWas) {

@@ -29,6 +29,21 @@ std::vector<double> noise(unsigned count, std::uint64_t range) {
   return xyz;
 }
 
+/// Smooth and random values of several types.
+std::vector<ArrayValues> goldenArrays(std::size_t count) {
+  std::vector<ArrayValues> arrays = arraysOfAllTypes(count);
+  ArrayValues height;
+  height.name = "smooth";
+  height.type = ScalarType::UInt16;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t v = 1000 + i % 12 * 3 + i / 12 * 7;
+    height.values.push_back(static_cast<std::uint8_t>(v));
+    height.values.push_back(static_cast<std::uint8_t>(v >> 8));
+  }
+  arrays.push_back(std::move(height));
+  return arrays;
+}
+
 }  // namespace
 
 std::vector<GoldenFile> goldenFiles() {
@@ -43,6 +58,7 @@ std::vector<GoldenFile> goldenFiles() {
       file.options.layers = layers;
       file.options.grid = grid;
       files.push_back(std::move(file));
+      return &files.back();
     };
     const GridRequest any = GridRequest::automatic();
     add("terrain", terrain(40, 1, 0), ScalarType::Float32, Layout::Progressive, 1, any);
@@ -54,6 +70,14 @@ std::vector<GoldenFile> goldenFiles() {
         ScalarType::Float64, Layout::Progressive, 2, any);
     add("crowd", noise(3000, 12), ScalarType::Float32, Layout::Progressive, 1, any);
     add("one_point", {1, 2, 3}, ScalarType::Float32, Layout::Progressive, 1, any);
+    if (method == Method::Fast || method == Method::Kd) {
+      GoldenFile* arrays =
+          add("arrays", terrain(12, 1, 0), ScalarType::Float32, Layout::Progressive, 2, any);
+      arrays->arrays = goldenArrays(144);
+      arrays->options.keepOrder = method == Method::Kd;
+      arrays->options.metadata.crs = "EPSG:25832";
+      arrays->options.metadata.entries = {{"title", "terrain"}};
+    }
     add("empty", {}, ScalarType::Float32, Layout::Progressive, 1, any);
   }
   return files;

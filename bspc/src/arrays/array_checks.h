@@ -14,6 +14,9 @@ void checkArrays(Span<const ArrayView> arrays, std::uint64_t points, const Encod
 /// Likewise for arrays whose values are still to come.
 void checkDescriptions(const std::vector<ArrayDescription>& arrays, const EncodeOptions& options);
 
+/// Likewise for the arrays of so many cells of a mesh.
+void checkCellArrays(Span<const ArrayView> arrays, std::uint64_t cells);
+
 /// Throws Error(InvalidArgument) for keys or field arrays that come twice or make no sense.
 void checkMetadata(const Metadata& metadata);
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -58,15 +57,20 @@ class CellMap {
     return {members_.data() + starts_[cell], std::size_t{ends_[cell]} - starts_[cell]};
   }
   /// Appends to a cell's list, which has room for as many as the cell has points.
-  void add(std::size_t cell, std::uint32_t number) { members_[ends_[cell]++] = number; }
-  /// Takes a number out of a cell's list; the last one takes its place.
+  void add(std::size_t cell, std::uint32_t number) {
+    if (!places_.empty()) places_[number] = ends_[cell];
+    members_[ends_[cell]++] = number;
+  }
+
+  /// To be called before anything is added if things are to be removed; numbers are those of
+  /// points.
+  void allowRemoval() { places_.resize(members_.size()); }
+  /// Takes a number out of its cell's list; the last one takes its place.
   void remove(std::size_t cell, std::uint32_t number) {
-    std::uint32_t* first = members_.data() + starts_[cell];
-    std::uint32_t* last = members_.data() + ends_[cell];
-    std::uint32_t* at = std::find(first, last, number);
-    if (at == last) return;
-    *at = *(last - 1);
-    --ends_[cell];
+    const std::uint32_t place = places_[number];
+    const std::uint32_t last = members_[--ends_[cell]];
+    members_[place] = last;
+    places_[last] = place;
   }
 
  private:
@@ -78,6 +82,7 @@ class CellMap {
   std::vector<std::uint32_t> starts_;
   std::vector<std::uint32_t> ends_;  ///< of the lists
   std::vector<std::uint32_t> members_;
+  std::vector<std::uint32_t> places_;  ///< of numbers among the members
   std::vector<std::uint32_t> slots_;
 };
 

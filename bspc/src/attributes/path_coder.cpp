@@ -26,6 +26,7 @@ class UnusedCells {
         cellOf_(points.size()),
         shift_(shift + (points.bits > kMortonBits ? points.bits - kMortonBits : 0) - points.cut),
         last_((std::int64_t{1} << (kMortonBits - shift)) - 1) {
+    map_.allowRemoval();
     for (std::size_t rank = 0, cell = 0; rank < points.size(); ++rank) {
       while (cell + 1 < map_.size() && map_.startOf(cell + 1) <= rank) ++cell;
       cellOf_[rank] = static_cast<std::uint32_t>(cell);
