@@ -14,6 +14,14 @@ peer_packages=(libdraco-dev draco)
 vtk_packages=(libvtk9-dev python3-vtk9 python3-numpy dpkg-dev xvfb xauth libgl1-mesa-dri)
 openmesh_packages=(libopenmesh-dev)
 
+# ParaView; openmpi-bin runs it in several processes, the last ones give it a screen and icons.
+paraview_packages=(
+  paraview paraview-dev libvtk9.1 openmpi-bin xvfb xauth libgl1-mesa-dri libqt5svg5
+)
+# Cannot be installed beside python3-vtk9; what the tests need of it is unpacked into the build.
+paraview_python_package=python3-paraview
+paraview_python_folder=build/paraview-python
+
 usage() {
   cat <<'END'
 Usage: scripts/setup.sh [--lint] [--vtk] [--openmesh] [--compilers] [--peers] [--for-download PACKAGE]
@@ -24,6 +32,8 @@ installed. Needs root or sudo only if something is missing.
   --lint                  also clang-format and clang-tidy, for scripts/lint.sh
   --vtk                   also VTK with its Python package, for the preset dev
   --openmesh              also OpenMesh, for the preset dev
+  --paraview              also ParaView, for the preset paraview; unpacks ParaView's Python modules
+                          into build/paraview-python
   --compilers             also clang, for scripts/compilers.sh
   --peers                 also the coders that benchmarks/peers compares bspc with
   --for-download PACKAGE  also make sure that apt-get knows PACKAGE, without installing it
@@ -36,9 +46,14 @@ die() {
 }
 
 wanted=("${build_packages[@]}")
+paraview=no
 to_download=
 while (($# > 0)); do
   case $1 in
+    --paraview)
+      wanted+=("${paraview_packages[@]}")
+      paraview=yes
+      ;;
     --lint) wanted+=("${lint_packages[@]}") ;;
     --vtk) wanted+=("${vtk_packages[@]}") ;;
     --openmesh) wanted+=("${openmesh_packages[@]}") ;;
@@ -81,7 +96,7 @@ fi
 
 if ((${#missing[@]} == 0)); then
   echo "setup: all ${#wanted[@]} packages are installed"
-  [[ -n $to_download ]] || exit 0
+  [[ -n $to_download || $paraview == yes ]] || exit 0
 fi
 
 command -v apt-get >/dev/null ||
@@ -131,4 +146,19 @@ fi
 if [[ -n $to_download ]]; then
   known "$to_download" || refresh_lists
   known "$to_download" || die "apt-get does not know the package $to_download"
+fi
+
+unpack_paraview_python() {
+  if [[ -d $paraview_python_folder/usr/lib/python3/dist-packages/paraview ]]; then return; fi
+  known "$paraview_python_package" || refresh_lists
+  local folder
+  folder=$(mktemp -d)
+  (cd "$folder" && apt-get -q download "$paraview_python_package")
+  mkdir -p "$paraview_python_folder"
+  dpkg-deb -x "$folder/$paraview_python_package"_*.deb "$paraview_python_folder"
+  rm -r "$folder"
+}
+if [[ $paraview == yes ]]; then
+  cd "$(dirname "${BASH_SOURCE[0]}")/.."
+  unpack_paraview_python
 fi

@@ -5,19 +5,23 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 usage() {
   cat <<'END'
-Usage: scripts/test.sh [--quick]
+Usage: scripts/test.sh [--quick] [--paraview]
 
 Installs what is missing (scripts/setup.sh), checks style and layout (scripts/lint.sh), then builds
 and runs the tests twice: optimised, and with AddressSanitizer and UndefinedBehaviorSanitizer.
 
-  --quick  only the optimised build and its tests
+  --quick     only the optimised build and its tests
+  --paraview  also installs ParaView and tests its plugin; without this the plugin is tested where
+              ParaView is installed
 END
 }
 
 quick=no
+paraview=no
 for argument in "$@"; do
   case $argument in
     --quick) quick=yes ;;
+    --paraview) paraview=yes ;;
     -h | --help)
       usage
       exit 0
@@ -55,6 +59,15 @@ if [[ $quick == yes ]]; then
 else
   step "packages" scripts/setup.sh --lint --vtk --openmesh
   step "style and layout" scripts/lint.sh
+fi
+# Its libraries and its development files are packages of their own.
+if [[ $paraview == no ]] && command -v pvbatch >/dev/null && [[ -d /usr/include/paraview-5.11 ]]; then
+  paraview=yes
+fi
+if [[ $paraview == yes ]]; then
+  step "packages of ParaView" scripts/setup.sh --paraview
+  step "build paraview" configure_and_build paraview
+  step "tests of paraview" ctest --preset paraview -j 1
 fi
 step "build dev" configure_and_build dev
 last=dev
