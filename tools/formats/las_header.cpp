@@ -206,7 +206,7 @@ class HeaderReader {
 
   Bytes take(std::size_t bytes) {
     if (!in_.ensure(bytes)) skip(bytes);
-    const Bytes taken(in_.data(), in_.data() + bytes);
+    Bytes taken(in_.data(), in_.data() + bytes);
     in_.consume(bytes);
     return taken;
   }

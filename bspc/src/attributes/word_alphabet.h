@@ -15,7 +15,7 @@ namespace bspc::attributes {
 /// The words that method Mixing numbers 0 … 255, ascending; empty if words are bytes themselves or
 /// if there are more.
 template <class Word>
-std::vector<Word> distinctWords(std::vector<Word> words) {
+std::vector<Word> distinctWords(const std::vector<Word>& words) {
   constexpr std::size_t kMost = 256;
   std::vector<Word> distinct;
   for (const Word word : words) {
