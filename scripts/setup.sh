@@ -9,19 +9,21 @@ build_packages=(
 )
 lint_packages=(clang-format clang-tidy)
 compiler_packages=(clang)
-peer_packages=(libdraco-dev)
+peer_packages=(libdraco-dev draco)
 # dpkg-dev finds out what a package depends on; the last three render without a screen.
 vtk_packages=(libvtk9-dev python3-vtk9 python3-numpy dpkg-dev xvfb xauth libgl1-mesa-dri)
+openmesh_packages=(libopenmesh-dev)
 
 usage() {
   cat <<'END'
-Usage: scripts/setup.sh [--lint] [--vtk] [--compilers] [--peers] [--for-download PACKAGE]
+Usage: scripts/setup.sh [--lint] [--vtk] [--openmesh] [--compilers] [--peers] [--for-download PACKAGE]
 
 Installs the Debian 12 packages that building and testing bspc needs; does nothing where they are
 installed. Needs root or sudo only if something is missing.
 
   --lint                  also clang-format and clang-tidy, for scripts/lint.sh
   --vtk                   also VTK with its Python package, for the preset dev
+  --openmesh              also OpenMesh, for the preset dev
   --compilers             also clang, for scripts/compilers.sh
   --peers                 also the coders that benchmarks/peers compares bspc with
   --for-download PACKAGE  also make sure that apt-get knows PACKAGE, without installing it
@@ -39,6 +41,7 @@ while (($# > 0)); do
   case $1 in
     --lint) wanted+=("${lint_packages[@]}") ;;
     --vtk) wanted+=("${vtk_packages[@]}") ;;
+    --openmesh) wanted+=("${openmesh_packages[@]}") ;;
     --compilers) wanted+=("${compiler_packages[@]}") ;;
     --peers) wanted+=("${peer_packages[@]}") ;;
     --for-download)

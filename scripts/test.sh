@@ -51,9 +51,9 @@ configure_and_build() {
 }
 
 if [[ $quick == yes ]]; then
-  step "packages" scripts/setup.sh --vtk
+  step "packages" scripts/setup.sh --vtk --openmesh
 else
-  step "packages" scripts/setup.sh --lint --vtk
+  step "packages" scripts/setup.sh --lint --vtk --openmesh
   step "style and layout" scripts/lint.sh
 fi
 step "build dev" configure_and_build dev

@@ -55,6 +55,12 @@ void FileSink::write(ByteView bytes) {
   if (!stream_) failWriting();
 }
 
+void FileSink::flush() {
+  errno = 0;
+  stream_.flush();
+  if (!stream_) failWriting();
+}
+
 void FileSink::commit() {
   errno = 0;
   stream_.close();

@@ -31,6 +31,10 @@ class FileSink final : public ByteSink {
   FileSink& operator=(const FileSink&) = delete;
 
   void write(ByteView bytes) override;
+  /// Hands on what is kept back, so that others who open writtenPath() find it. Throws Error(Io).
+  void flush();
+  /// The file beside its place; empty if the place itself is written to.
+  std::string writtenPath() const { return temporary_.u8string(); }
   /// Puts the file in its place. Throws Error(Io).
   void commit();
   /// Whether the disk was full when writing failed.

@@ -27,13 +27,12 @@ class vtkBSPWriter::vtkInternals {
   void WriteToString();
   void WriteToFile();
   void Fail(unsigned long code, const std::string& what);
-
- private:
-  void Encode(bspc::ByteSink& sink);
-  bspc::EncodeOptions Options() const;
   bspc::GridRequest Grid() const;
   bspc::vtk::InputPoints::Options InputOptions() const;
   bool Aborted();
+
+ private:
+  void Encode(bspc::ByteSink& sink);
 
   vtkBSPWriter* self_;
 };
@@ -63,26 +62,6 @@ bspc::GridRequest vtkBSPWriter::vtkInternals::Grid() const {
   return request;
 }
 
-bspc::EncodeOptions vtkBSPWriter::vtkInternals::Options() const {
-  bspc::EncodeOptions options;
-  options.grid = Grid();
-  if (self_->Method != nullptr && *self_->Method != '\0') {
-    options.method = bspc::methodFromName(self_->Method);
-    if (!options.method) {
-      throw bspc::Error(bspc::ErrorCode::InvalidArgument,
-                        "there is no method \"" + std::string(self_->Method) + "\"");
-    }
-  }
-  if (self_->Effort > 0) options.effort = static_cast<unsigned>(self_->Effort);
-  options.keepOrder = self_->KeepOrder;
-  options.layers = static_cast<unsigned>(self_->NumberOfLevels);
-  options.tilePoints = static_cast<std::uint64_t>(self_->PointsPerTile);
-  options.threads = static_cast<unsigned>(self_->NumberOfThreads);
-  options.layout = self_->Layout == STREAMING ? bspc::Layout::Streaming : bspc::Layout::Progressive;
-  options.metadata = bspc::vtk::metadataOf(self_->GetInput()->GetFieldData());
-  return options;
-}
-
 bspc::vtk::InputPoints::Options vtkBSPWriter::vtkInternals::InputOptions() const {
   bspc::vtk::InputPoints::Options options;
   options.dropCells = self_->DropCells;
@@ -92,24 +71,14 @@ bspc::vtk::InputPoints::Options vtkBSPWriter::vtkInternals::InputOptions() const
 }
 
 void vtkBSPWriter::vtkInternals::Encode(bspc::ByteSink& sink) {
-  const bspc::vtk::InputPoints points(self_->GetInput(), InputOptions());
-  bspc::EncodeOptions options = Options();
-  options.progress = [this](double share) {
-    self_->UpdateProgress(share);
-    return !Aborted();
-  };
-  const bspc::EncodeReport report = bspc::encode(points.view(), sink, options);
-  self_->NumberOfPointsWritten = static_cast<vtkIdType>(report.points);
-  self_->NumberOfBytesWritten = static_cast<vtkIdType>(report.fileBytes);
-  self_->Exact = report.exact;
-  std::copy(report.maxError.begin(), report.maxError.end(), self_->MaximumError);
+  const std::unique_ptr<bspc::vtk::InputPoints> points = self_->ReadInput();
+  self_->Report(bspc::encode(points->view(), sink, self_->MakeEncodeOptions()));
 }
 
 void vtkBSPWriter::vtkInternals::WriteToString() {
   bspc::vtk::StringSink sink;
   Encode(sink);
   self_->OutputString = sink.take();
-  self_->Written = true;
 }
 
 void vtkBSPWriter::vtkInternals::WriteToFile() {
@@ -123,7 +92,6 @@ void vtkBSPWriter::vtkInternals::WriteToFile() {
   try {
     Encode(*file);
     file->commit();
-    self_->Written = true;
   } catch (const bspc::Error& error) {
     if (!file->diskFull()) throw;
     Fail(vtkErrorCode::OutOfDiskSpaceError, error.what());
@@ -169,12 +137,20 @@ void vtkBSPWriter::WriteData() {
     internals.Fail(vtkErrorCode::NoFileNameError, "no file name is set");
     return;
   }
-  try {
+  this->Guard([this, &internals] {
     if (this->WriteToOutputString) {
       internals.WriteToString();
     } else {
       internals.WriteToFile();
     }
+  });
+}
+
+void vtkBSPWriter::Guard(const std::function<void()>& body) {
+  vtkInternals internals(this);
+  try {
+    body();
+    this->Written = this->GetErrorCode() == vtkErrorCode::NoError;
   } catch (const bspc::Error& error) {
     // Asked to stop: nothing has gone wrong, and nothing is written.
     if (error.code() == bspc::ErrorCode::Cancelled) return;
@@ -182,6 +158,43 @@ void vtkBSPWriter::WriteData() {
   } catch (const std::bad_alloc&) {
     internals.Fail(vtkErrorCode::UnknownError, "there is not enough memory to compress the points");
   }
+}
+
+std::unique_ptr<bspc::vtk::InputPoints> vtkBSPWriter::ReadInput() {
+  return std::make_unique<bspc::vtk::InputPoints>(this->GetInput(),
+                                                  vtkInternals(this).InputOptions());
+}
+
+bspc::EncodeOptions vtkBSPWriter::MakeEncodeOptions() {
+  vtkInternals internals(this);
+  bspc::EncodeOptions options;
+  options.grid = internals.Grid();
+  if (this->Method != nullptr && *this->Method != '\0') {
+    options.method = bspc::methodFromName(this->Method);
+    if (!options.method) {
+      throw bspc::Error(bspc::ErrorCode::InvalidArgument,
+                        "there is no method \"" + std::string(this->Method) + "\"");
+    }
+  }
+  if (this->Effort > 0) options.effort = static_cast<unsigned>(this->Effort);
+  options.keepOrder = this->KeepOrder;
+  options.layers = static_cast<unsigned>(this->NumberOfLevels);
+  options.tilePoints = static_cast<std::uint64_t>(this->PointsPerTile);
+  options.threads = static_cast<unsigned>(this->NumberOfThreads);
+  options.layout = this->Layout == STREAMING ? bspc::Layout::Streaming : bspc::Layout::Progressive;
+  options.metadata = bspc::vtk::metadataOf(this->GetInput()->GetFieldData());
+  options.progress = [this](double share) {
+    this->UpdateProgress(share);
+    return !vtkInternals(this).Aborted();
+  };
+  return options;
+}
+
+void vtkBSPWriter::Report(const bspc::EncodeReport& report) {
+  this->NumberOfPointsWritten = static_cast<vtkIdType>(report.points);
+  this->NumberOfBytesWritten = static_cast<vtkIdType>(report.fileBytes);
+  this->Exact = report.exact;
+  std::copy(report.maxError.begin(), report.maxError.end(), this->MaximumError);
 }
 
 vtkDataArraySelection* vtkBSPWriter::GetPointDataArraySelection() {

@@ -21,7 +21,9 @@
 #ifndef vtkBSPWriter_h
 #define vtkBSPWriter_h
 
+#include <functional>
 #include <map>
+#include <memory>
 #include <string>
 
 #include "vtkBSPWriterModule.h"
@@ -29,6 +31,14 @@
 #include "vtkWriter.h"
 
 class vtkDataArraySelection;
+
+namespace bspc {
+struct EncodeOptions;
+struct EncodeReport;
+namespace vtk {
+class InputPoints;
+}
+}  // namespace bspc
 
 class VTKBSPWRITER_EXPORT vtkBSPWriter : public vtkWriter {
  public:
@@ -187,6 +197,16 @@ class VTKBSPWRITER_EXPORT vtkBSPWriter : public vtkWriter {
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   void WriteData() override;
+
+  ///@{
+  /// For writers that put a file together in another way. Guard() runs a body that writes the file;
+  /// what goes wrong becomes a VTK error. Within it, ReadInput() gives the points with the arrays
+  /// that are to be written, MakeEncodeOptions() says how, and Report() tells that all is written.
+  void Guard(const std::function<void()>& body);
+  std::unique_ptr<bspc::vtk::InputPoints> ReadInput();
+  bspc::EncodeOptions MakeEncodeOptions();
+  void Report(const bspc::EncodeReport& report);
+  ///@}
 
  private:
   vtkBSPWriter(const vtkBSPWriter&) = delete;

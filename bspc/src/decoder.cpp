@@ -4,6 +4,7 @@
 
 #include "container/container_reader.h"
 #include "decoded_tiles.h"
+#include "mesh/mesh_decoder.h"
 #include "parallel.h"
 #include "point_selection.h"
 #include "progress_scale.h"
@@ -51,6 +52,23 @@ void addTileInfo(FileInfo& info, const container::TileLayout& layout,
   info.tiles.push_back(t);
 }
 
+MeshInfo describeMesh(const container::ContainerReader& file) {
+  const container::MeshRecord& mesh = file.head().mesh;
+  MeshInfo info;
+  info.vertices = mesh.counts.vertices;
+  info.lines = mesh.counts.lines;
+  info.faces = mesh.counts.faces;
+  info.bytes = file.meshBytes();
+  info.missing = file.meshMissing();
+  for (const ArrayDescription& array : mesh.arrays) {
+    ArrayInfo described;
+    static_cast<ArrayDescription&>(described) = array;
+    described.firstLevel = file.head().layers - 1;
+    info.arrays.push_back(std::move(described));
+  }
+  return info;
+}
+
 FileInfo describe(const container::ContainerReader& file) {
   FileInfo info;
   info.versionMajor = container::kVersionMajor;
@@ -69,6 +87,7 @@ FileInfo describe(const container::ContainerReader& file) {
   }
   info.metadata = file.head().metadata;
   info.keepsOrder = file.head().keepsOrder;
+  info.mesh = describeMesh(file);
   for (const container::TileRecord& tile : file.tiles()) addTileInfo(info, file.layout(), tile);
   return info;
 }
@@ -178,6 +197,10 @@ DecodedPoints Decoder::Impl::decode(const DecodeOptions& options) {
   result.complete = query.complete;
   if (query.thin && result.points.size() > *options.maxPoints) {
     thinTo(*options.maxPoints, result);
+  }
+  if (options.mesh && query.complete && file_.head().mesh.blocks > 0 && !file_.meshMissing()) {
+    const std::uint64_t used = all.bytes();
+    decodeMesh(file_, limits_.memoryBytes > used ? limits_.memoryBytes - used : 0, result);
   }
   return result;
 }

@@ -1,5 +1,6 @@
 #include "bspc/encoder.h"
 
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -7,6 +8,7 @@
 #include "arrays/array_source.h"
 #include "coding_plan.h"
 #include "container/container_writer.h"
+#include "mesh/mesh_encoder.h"
 #include "progress_scale.h"
 #include "set_encoder.h"
 #include "shared_progress.h"
@@ -19,20 +21,32 @@ namespace {
 constexpr double kGridShare = 0.15;
 
 container::FileHead headOf(const EncodeReport& report, const ArraySource& arrays,
-                           const EncodeOptions& options) {
+                           const MeshEncoder& mesh, const EncodeOptions& options) {
   container::FileHead head;
   head.layers = report.layers;
   head.grid = report.grid;
   head.keepsOrder = options.keepOrder;
   head.metadata = options.metadata;
+  head.mesh = mesh.record();
   for (std::size_t a = 0; a < arrays.size(); ++a) head.arrays.push_back(arrays.description(a));
   return head;
+}
+
+/// Input indices of the points that are kept, in order.
+std::vector<std::uint64_t> keptOrder(const GridFit& fit) {
+  std::vector<std::uint64_t> order = fit.sourceIndex;
+  if (order.empty()) {
+    order.resize(fit.points.size());
+    std::iota(order.begin(), order.end(), std::uint64_t{0});
+  }
+  return order;
 }
 
 }  // namespace
 
 EncodeReport encode(const PointSetView& points, ByteSink& sink, const EncodeOptions& options) {
   checkArrays(points.arrays(), points.size(), options);
+  const MeshEncoder mesh(points, options);
   checkMetadata(options.metadata);
   planCoding(options, points.size());  // wishes that cannot be met are refused before any work
   ProgressScale fitting(options.progress, 0, kGridShare);
@@ -58,11 +72,17 @@ EncodeReport encode(const PointSetView& points, ByteSink& sink, const EncodeOpti
   for (std::size_t a = 0; a < arrays.size(); ++a) {
     report.arrays.push_back({arrays.description(a).name, 0, 0});
   }
-  container::ContainerWriter writer(sink, options.layout, headOf(report, arrays, options));
+  container::ContainerWriter writer(sink, options.layout, headOf(report, arrays, mesh, options));
   SharedProgress progress(coding, report.points);
-  SetEncoder(plan, options, arrays, progress, writer, report)
+  EncodeOptions pointOptions = options;
+  pointOptions.wantOrder = options.wantOrder || mesh.hasWork();
+  SetEncoder(plan, pointOptions, arrays, progress, writer, report)
       .encode(fit.points, fit.sourceIndex, &points);
-  writer.finish();
+  writer.finish([&](std::size_t /*block*/) {
+    if (options.keepOrder) report.order = keptOrder(fit);
+    return mesh.encode(fit, plan.arrayEffort, report.tiles, report.order, report);
+  });
+  if (!options.wantOrder) report.order = {};
   report.fileBytes = writer.bytesWritten();
   coding.report(1);
   return report;

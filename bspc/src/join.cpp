@@ -40,7 +40,11 @@ class Joiner {
     head_.keepsOrder = tables_.keepsOrder();
     head_.metadata = metadata_.metadata();
     layout_ = head_.layout();
-    for (std::size_t f = 0; f < files_.size(); ++f) takeTiles(f);
+    for (std::size_t f = 0; f < files_.size(); ++f) {
+      meshes_.take(f, head_.tiles.size(), files_[f]->head().mesh);
+      takeTiles(f);
+    }
+    head_.mesh = meshes_.record();
   }
 
   JoinReport write(ByteSink& sink) {
@@ -151,10 +155,21 @@ class Joiner {
     std::size_t done = 0;
     const auto all =
         static_cast<double>(std::max<std::size_t>(tiles_.size() * layout_.columns(), 1));
-    return container::writeProgressive(sink, head_, [&](std::size_t tile, std::size_t column) {
-      progress_.report(static_cast<double>(done++) / all);
-      return payload(tile, column);
-    });
+    return container::writeProgressive(
+        sink, head_,
+        [&](std::size_t tile, std::size_t column) {
+          progress_.report(static_cast<double>(done++) / all);
+          return payload(tile, column);
+        },
+        [this](std::size_t block) { return meshBlock(block); });
+  }
+
+  /// The content of a Mesh block, for the tiles that it has in the joined file.
+  Bytes meshBlock(std::size_t number) const {
+    const JoinedMeshes::Source& source = meshes_.source(number);
+    container::MeshBlock block = files_[source.file]->meshBlock(source.block);
+    block.firstTile = saturatingAdd(block.firstTile, source.firstTile);
+    return container::writeMeshBlock(block);
   }
 
   std::uint64_t writeStreaming(ByteSink& sink) {
@@ -170,7 +185,7 @@ class Joiner {
       }
       writer.addTile(head_.tiles[tile], std::move(chunks));
     }
-    writer.finish();
+    writer.finish([this](std::size_t block) { return meshBlock(block); });
     return writer.bytesWritten();
   }
 
@@ -181,6 +196,7 @@ class Joiner {
   bool hasGrid_ = false;
   JoinedTables tables_;
   JoinedMetadata metadata_;
+  JoinedMeshes meshes_;
   container::FileHead head_;
   container::TileLayout layout_;
   std::vector<SourceTile> tiles_;

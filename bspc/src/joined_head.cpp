@@ -79,6 +79,27 @@ void JoinedTables::take(std::size_t file, const container::FileHead& head) {
   }
 }
 
+void JoinedMeshes::take(std::size_t file, std::uint64_t firstTile,
+                        const container::MeshRecord& mesh) {
+  if (mesh.blocks == 0) return;
+  if (sources_.empty()) record_.arrays = mesh.arrays;
+  if (mesh.arrays.size() != record_.arrays.size()) {
+    refuse(file, "has other arrays of cells than those before it; encode all with the same");
+  }
+  for (std::size_t a = 0; a < mesh.arrays.size(); ++a) {
+    if (mesh.arrays[a].name != record_.arrays[a].name) {
+      refuse(file, "has the array of cells \"" + mesh.arrays[a].name +
+                       "\" where those before it have \"" + record_.arrays[a].name +
+                       "\"; encode all with the same arrays in the same order");
+    }
+    requireEqual(file, record_.arrays[a], mesh.arrays[a]);
+    record_.arrays[a].tolerance = std::max(record_.arrays[a].tolerance, mesh.arrays[a].tolerance);
+  }
+  record_.counts.add(mesh.counts);
+  record_.blocks += mesh.blocks;
+  for (std::size_t b = 0; b < mesh.blocks; ++b) sources_.push_back({file, b, firstTile});
+}
+
 void JoinedMetadata::take(std::size_t file, const Metadata& metadata) {
   takeText(file, "coordinate reference system", metadata.crs, metadata_.crs);
   takeText(file, "length unit", metadata.lengthUnit, metadata_.lengthUnit);

@@ -28,6 +28,28 @@ class JoinedTables {
   std::vector<std::vector<std::size_t>> indices_;  ///< by file, then by array
 };
 
+/// The meshes of files that are joined: each keeps its own Mesh blocks.
+class JoinedMeshes {
+ public:
+  /// A block of one of the files.
+  struct Source {
+    std::size_t file = 0;
+    std::size_t block = 0;
+    std::uint64_t firstTile = 0;  ///< of the file in the joined one
+  };
+
+  /// Takes what a file has whose tiles begin at `firstTile`. Throws Error(InvalidArgument) if its
+  /// cells have other arrays than those before it.
+  void take(std::size_t file, std::uint64_t firstTile, const container::MeshRecord& mesh);
+
+  const container::MeshRecord& record() const { return record_; }
+  const Source& source(std::size_t block) const { return sources_[block]; }
+
+ private:
+  container::MeshRecord record_;
+  std::vector<Source> sources_;
+};
+
 /// The metadata of files that are joined.
 class JoinedMetadata {
  public:

@@ -377,7 +377,7 @@ std::vector<Mesh> oddMeshes() {
   return meshes;
 }
 
-std::vector<std::vector<std::uint32_t>> canonical(const connectivity::Cells& faces) {
+std::vector<std::vector<std::uint32_t>> canonical(const Cells& faces) {
   std::vector<std::vector<std::uint32_t>> result;
   for (std::size_t i = 0; i < faces.size(); ++i) {
     Face face(faces[i].begin(), faces[i].end());

@@ -5,14 +5,14 @@
 #include <vector>
 
 #include "bspc/grid.h"
-#include "connectivity/connectivity_coder.h"
+#include "bspc/mesh.h"
 
 namespace bspc::test {
 
 struct Mesh {
   std::string name;
   std::vector<GridPoint> points;
-  connectivity::MeshCells cells;
+  MeshCells cells;
 };
 
 /// A closed surface with one handle of `rings` × `sides` faces, in triangles or quadrilaterals.
@@ -36,6 +36,6 @@ Mesh shuffled(Mesh mesh, std::uint64_t seed);
 std::vector<Mesh> oddMeshes();
 
 /// Faces each from its smallest vertex on, sorted.
-std::vector<std::vector<std::uint32_t>> canonical(const connectivity::Cells& faces);
+std::vector<std::vector<std::uint32_t>> canonical(const Cells& faces);
 
 }  // namespace bspc::test

@@ -12,6 +12,7 @@
 #include "bspc/grid.h"
 #include "bspc/io.h"
 #include "bspc/limits.h"
+#include "bspc/mesh.h"
 #include "bspc/method.h"
 #include "bspc/progress.h"
 
@@ -41,6 +42,18 @@ struct ArrayInfo : ArrayDescription {
   unsigned firstLevel = 0;
 };
 
+/// The mesh of a file.
+struct MeshInfo {
+  std::uint64_t vertices = 0;  ///< vertex cells
+  std::uint64_t lines = 0;
+  std::uint64_t faces = 0;
+  std::uint64_t bytes = 0;        ///< of the file: cells and their arrays
+  std::vector<ArrayInfo> arrays;  ///< beside the cells, one tuple a cell; their sizes are not known
+  bool missing = false;           ///< the file was cut short before them
+
+  bool empty() const { return vertices == 0 && lines == 0 && faces == 0; }
+};
+
 /// What a file says about itself; known without decoding any points.
 struct FileInfo {
   unsigned versionMajor = 0;
@@ -58,6 +71,7 @@ struct FileInfo {
   Metadata metadata;
   bool keepsOrder = false;       ///< points come back in the order of the input
   std::uint64_t orderBytes = 0;  ///< payload of that order, or of one that helps to code arrays
+  MeshInfo mesh;
   /// Layers that are whole in this file; less than layers.size() only in a truncated file that
   /// was opened with allowPartial.
   unsigned wholeLayers = 0;
@@ -107,6 +121,9 @@ struct DecodeOptions {
   /// Only these tiles, for callers that share a file out among themselves; a range that the file
   /// does not have is an error (InvalidArgument). maxPoints is then a bound on these tiles alone.
   std::optional<TileRange> tiles;
+  /// decode() only: the cells of the mesh too, if all points are decoded (no box, all tiles, the
+  /// last layer). A part of the points has no cells.
+  bool mesh = true;
   unsigned threads = 0;  ///< 0: as many as the machine has; the result does not depend on it
   ProgressCallback progress;
 };
@@ -121,8 +138,10 @@ struct DecodedPoints {
   std::vector<std::uint64_t> counts;
   /// Only if asked for. Ids are 0-based and consecutive over the file.
   std::vector<std::uint64_t> cellIds;
-  unsigned level = 0;    ///< the finest layer that was used
-  bool complete = true;  ///< every point of the original is there
+  MeshCells mesh;                       ///< see DecodeOptions::mesh
+  std::vector<ArrayValues> cellArrays;  ///< in the order of MeshInfo::arrays, one tuple a cell
+  unsigned level = 0;                   ///< the finest layer that was used
+  bool complete = true;                 ///< every point of the original is there
 };
 
 /// An open .bspc file: reads head and index at once, the rest on demand.

@@ -43,7 +43,8 @@ struct EncodeOptions {
   unsigned layers = 0;  ///< 1 … kMaxLayers; 0: by the number of points, 1 below 4,096
   Layout layout = Layout::Progressive;
   /// Store the order of the points too, so that decoding returns them (and their arrays) in the
-  /// order of the input. Tiles are then consecutive ranges of it.
+  /// order of the input. Tiles are then consecutive ranges of it. Cells of a mesh keep their order
+  /// too, and each the point that it begins with.
   bool keepOrder = false;
   /// Add an array "OriginalPointIds" (uint64, Semantic::Ids): each point's index in the input.
   bool originalIds = false;
@@ -78,10 +79,17 @@ struct EncodeReport {
   std::array<double, 3> maxError{};
   /// Input index of the j-th point that a decoder returns; only if wantOrder.
   std::vector<std::uint64_t> order;
+  std::uint64_t meshBytes = 0;          ///< payload of the cells, without their arrays
+  std::vector<ArrayReport> cellArrays;  ///< beside the cells
+  /// Input index of the j-th cell that a decoder returns, over all three sorts; only if wantOrder.
+  std::vector<std::uint64_t> cellOrder;
 };
 
-/// Compresses a point set with its arrays. Throws Error; what was written to the sink by then is to
-/// be discarded.
+/// Compresses a point set with its arrays and the cells of its mesh. Faces come back with the same
+/// points in the same sense, but in an order of the coder's and from any of their points on, and
+/// vertex cells with their points sorted, unless keepOrder is set; lines always as they were.
+/// Points at the same place, which nothing but the faces tells apart, may be exchanged. Throws
+/// Error; what was written to the sink by then is to be discarded.
 EncodeReport encode(const PointSetView& points, ByteSink& sink, const EncodeOptions& options = {});
 
 }  // namespace bspc

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bspc/arrays.h"
+#include "bspc/mesh.h"
 #include "bspc/scalar_type.h"
 #include "bspc/span.h"
 
@@ -39,12 +40,21 @@ class PointSetView {
   Span<const ArrayView> arrays() const { return arrays_; }
   void addArray(ArrayView array) { arrays_.push_back(std::move(array)); }
 
+  /// Makes the points those of a mesh, whose cells must outlive this; nullptr: there are none.
+  void setMesh(const MeshCells* mesh) { mesh_ = mesh; }
+  const MeshCells* mesh() const { return mesh_; }
+  /// Named arrays with one tuple a cell of the mesh: vertex cells, then lines, then faces.
+  Span<const ArrayView> cellArrays() const { return cellArrays_; }
+  void addCellArray(ArrayView array) { cellArrays_.push_back(std::move(array)); }
+
  private:
   const void* data_ = nullptr;
   ScalarType type_ = ScalarType::Float32;
   std::uint64_t count_ = 0;
   std::size_t strideBytes_ = 0;
   std::vector<ArrayView> arrays_;
+  const MeshCells* mesh_ = nullptr;
+  std::vector<ArrayView> cellArrays_;
 };
 
 }  // namespace bspc

@@ -29,11 +29,11 @@ class UniqueNames {
   std::set<std::string> names_;
 };
 
-void checkView(const ArrayView& array, std::uint64_t points) {
+void checkView(const ArrayView& array, std::uint64_t points, const char* owner) {
   checkDescription(array);
   if (array.tuples != points) {
-    refuse(array, "has " + std::to_string(array.tuples) + " tuples for " + std::to_string(points) +
-                      " points; give one tuple a point");
+    refuse(array, "has " + std::to_string(array.tuples) + " tuples for " + std::to_string(points) + " " +
+                      owner + "s; give one tuple a " + owner);
   }
   const std::size_t packed = array.components * arrayValueSize(array.type);
   if (array.strideBytes != 0 && array.strideBytes < packed) {
@@ -72,10 +72,18 @@ void checkDescription(const ArrayDescription& array) {
 void checkArrays(Span<const ArrayView> arrays, std::uint64_t points, const EncodeOptions& options) {
   UniqueNames names;
   for (const ArrayView& array : arrays) {
-    checkView(array, points);
+    checkView(array, points, "point");
     names.add(array);
   }
   if (options.originalIds) names.add(originalIdsDescription());
+}
+
+void checkCellArrays(Span<const ArrayView> arrays, std::uint64_t cells) {
+  UniqueNames names;
+  for (const ArrayView& array : arrays) {
+    checkView(array, cells, "cell");
+    names.add(array);
+  }
 }
 
 void checkMetadata(const Metadata& metadata) {

@@ -26,15 +26,22 @@ constexpr std::uint64_t kMostNumbers = std::numeric_limits<std::uint32_t>::max()
 /// Steps that differ by more than this along two axes count as differing by this.
 constexpr double kMostAnisotropy = 1048576;
 
-/// Places of points for measuring distances: in steps of the finest axis.
+/// Places of points for measuring distances: from the corner of their box, in steps of the finest
+/// axis.
 std::vector<Position> placesOf(const MeshPoints& points) {
   const double finest = *std::min_element(points.steps.begin(), points.steps.end());
   std::array<double, 3> scale{};
   for (std::size_t k = 0; k < 3; ++k)
     scale[k] = std::min(points.steps[k] / finest, kMostAnisotropy);
   std::vector<Position> places(points.points.size());
+  GridPoint corner = points.points.empty() ? GridPoint{} : points.points[0];
+  for (const GridPoint& p : points.points) {
+    for (std::size_t k = 0; k < 3; ++k) corner[k] = std::min(corner[k], p[k]);
+  }
   for (std::size_t i = 0; i < places.size(); ++i) {
-    for (std::size_t k = 0; k < 3; ++k) places[i][k] = points.points[i][k] * scale[k];
+    for (std::size_t k = 0; k < 3; ++k) {
+      places[i][k] = static_cast<double>(points.points[i][k] - corner[k]) * scale[k];
+    }
   }
   return places;
 }

@@ -5,18 +5,10 @@
 #include <vector>
 
 #include "bspc/grid.h"
+#include "bspc/mesh.h"
 #include "bspc/span.h"
-#include "connectivity/cells.h"
 
 namespace bspc::connectivity {
-
-/// The cells of a mesh: lists of the numbers of its points, in decoded order. Vertex cells and
-/// lines may have any number of points; faces too, but those of fewer than three are not usual.
-struct MeshCells {
-  Cells vertices;
-  Cells lines;
-  Cells faces;
-};
 
 /// Where the points are: both sides know them.
 struct MeshPoints {

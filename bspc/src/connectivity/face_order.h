@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bspc/error.h"
-#include "connectivity/cells.h"
+#include "bspc/mesh.h"
 #include "connectivity/half_edge_map.h"
 #include "connectivity/numbers.h"
 #include "entropy/adaptive_bit.h"

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "bspc/mesh.h"
 #include "connectivity/advancing_front.h"
-#include "connectivity/cells.h"
 #include "connectivity/half_edge_map.h"
 
 namespace bspc::connectivity {

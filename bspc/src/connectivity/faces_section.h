@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "bspc/mesh.h"
 #include "connectivity/advancing_front.h"
-#include "connectivity/cells.h"
 #include "connectivity/corner_split.h"
 #include "connectivity/face_coder.h"
 #include "connectivity/numbers.h"

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "connectivity/cells.h"
+#include "bspc/mesh.h"
 
 namespace bspc::connectivity {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bspc/error.h"
-#include "connectivity/cells.h"
+#include "bspc/mesh.h"
 #include "connectivity/numbers.h"
 #include "connectivity/vertex_picker.h"
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "bspc/error.h"
-#include "connectivity/cells.h"
+#include "bspc/mesh.h"
 #include "connectivity/numbers.h"
 
 namespace bspc::connectivity {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "bspc/grid.h"
+#include "bspc/mesh.h"
 #include "bspc/span.h"
-#include "connectivity/cells.h"
 
 namespace bspc::connectivity {
 

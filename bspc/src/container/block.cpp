@@ -51,28 +51,38 @@ Bytes makeBlock(BlockType type, ByteView content, ByteView before) {
   return frame.take();
 }
 
-Block readBlock(ByteSource& source, std::uint64_t offset, std::uint64_t covered,
-                const std::string& part) {
+BlockFrame readFrame(ByteSource& source, std::uint64_t offset, const std::string& part) {
   const std::uint64_t size = source.size();
   if (offset >= size) failTruncated(part, size);
-  Bytes frame(static_cast<std::size_t>(std::min(kMaxFrame, size - offset)));
-  source.read(offset, frame);
-  ByteReader in(frame, part, offset);
-  Block block;
-  block.type = in.u8();
-  std::uint64_t content = 0;
+  Bytes bytes(static_cast<std::size_t>(std::min(kMaxFrame, size - offset)));
+  source.read(offset, bytes);
+  ByteReader in(bytes, part, offset);
+  BlockFrame frame;
+  frame.type = in.u8();
   try {
-    content = in.varint();
+    frame.content = in.varint();
   } catch (const Error&) {
-    if (frame.size() < kMaxFrame) failTruncated(part, size);
+    if (bytes.size() < kMaxFrame) failTruncated(part, size);
     throw;
   }
-  block.contentOffset = offset + in.position();
-  const unsigned width = checksumWidth(content);
-  if (content > size - block.contentOffset || size - block.contentOffset - content < width) {
+  frame.contentOffset = offset + in.position();
+  const unsigned width = checksumWidth(frame.content);
+  if (frame.content > size - frame.contentOffset ||
+      size - frame.contentOffset - frame.content < width) {
     failTruncated(part, size);
   }
-  block.end = block.contentOffset + content + width;
+  frame.end = frame.contentOffset + frame.content + width;
+  return frame;
+}
+
+Block readBlock(ByteSource& source, std::uint64_t offset, std::uint64_t covered,
+                const std::string& part) {
+  const BlockFrame frame = readFrame(source, offset, part);
+  const unsigned width = checksumWidth(frame.content);
+  Block block;
+  block.type = frame.type;
+  block.contentOffset = frame.contentOffset;
+  block.end = frame.end;
   Bytes whole(static_cast<std::size_t>(block.end - offset + covered));
   source.read(offset - covered, whole);
   const std::size_t hashed = whole.size() - width;
@@ -80,8 +90,8 @@ Block readBlock(ByteSource& source, std::uint64_t offset, std::uint64_t covered,
       storedChecksum(whole.data() + hashed, width)) {
     failChecksum(part, offset);
   }
-  const auto first = whole.begin() + static_cast<std::ptrdiff_t>(hashed - content);
-  block.content.assign(first, first + static_cast<std::ptrdiff_t>(content));
+  const auto first = whole.begin() + static_cast<std::ptrdiff_t>(hashed - frame.content);
+  block.content.assign(first, first + static_cast<std::ptrdiff_t>(frame.content));
   return block;
 }
 

@@ -15,6 +15,7 @@ enum class BlockType : std::uint8_t {
   Tile = 2,
   Index = 3,
   End = 4,
+  Mesh = 5,
 };
 constexpr unsigned kOptionalBlock = 128;
 
@@ -35,6 +36,16 @@ struct Block {
   std::uint64_t contentOffset = 0;  ///< in the file
   std::uint64_t end = 0;            ///< offset of what follows
 };
+
+/// Where a block stands, from its first bytes alone. Throws Error(Truncated) if the file ends inside
+/// the block.
+struct BlockFrame {
+  unsigned type = 0;
+  std::uint64_t contentOffset = 0;
+  std::uint64_t content = 0;  ///< bytes
+  std::uint64_t end = 0;
+};
+BlockFrame readFrame(ByteSource& source, std::uint64_t offset, const std::string& part);
 
 /// Reads the block at `offset` and checks it; `covered` bytes before it belong to its checksum.
 /// Throws Error(Truncated) if the file ends inside it, Error(Corrupt) on a wrong checksum.

@@ -84,6 +84,12 @@ void ContainerReader::openProgressive(std::uint64_t chunksOffset, const OpenOpti
     if (offset <= size && layout_.partOf(column) + 1 == layout_.parts()) ++wholeLayers_;
   }
   if (offset <= size) {
+    try {
+      findMeshBlocks(offset);
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::Truncated || !options.allowPartial) throw;
+      return;
+    }
     if (head_.trailingBlocks) {
       readTrailingBlocks(offset, size);
     } else if (offset < size) {
@@ -159,6 +165,7 @@ bool ContainerReader::readIndex(std::uint64_t firstTile, const DecodeLimits& lim
   if (offset > indexOffset) {
     throw Error(ErrorCode::Corrupt, "the tiles of the index do not fit in front of it");
   }
+  findMeshBlocks(offset);
   readTrailingBlocks(offset, indexOffset);
   overheadBytes_ += size - indexOffset;
   return true;
@@ -190,6 +197,31 @@ void ContainerReader::recoverTiles(std::uint64_t firstTile, const DecodeLimits& 
     head_.tiles.push_back(std::move(tile));
     offset = next;
   }
+}
+
+void ContainerReader::findMeshBlocks(std::uint64_t& offset) {
+  const std::uint64_t start = offset;
+  std::vector<std::uint64_t> found;
+  while (found.size() < head_.mesh.blocks) {
+    const BlockFrame frame =
+        readFrame(*source_, offset,
+                  "the cells of its mesh; every layer of the points is whole and can be decoded "
+                  "with --partial");
+    if (frame.type != static_cast<unsigned>(BlockType::Mesh)) {
+      throw Error(ErrorCode::Corrupt, "the block at byte " + std::to_string(offset) + " has type " +
+                                          std::to_string(frame.type) + " instead of cells");
+    }
+    found.push_back(offset);
+    offset = frame.end;
+  }
+  meshBlocks_ = std::move(found);
+  meshBytes_ = offset - start;
+}
+
+MeshBlock ContainerReader::meshBlock(std::size_t number) const {
+  const Block block = readBlock(*source_, meshBlocks_[number], 0, "a block of cells");
+  ByteReader in(block.content, "a block of cells", block.contentOffset);
+  return readMeshBlock(in, head_.mesh.arrays.size());
 }
 
 void ContainerReader::readTrailingBlocks(std::uint64_t offset, std::uint64_t end) const {

@@ -23,6 +23,12 @@ class ContainerReader {
   /// Layers whose chunks, those of the arrays among them, are all inside the file; at least 1
   /// unless there are no tiles.
   unsigned wholeLayers() const { return wholeLayers_; }
+  /// The Mesh blocks were lost at the end of a file that was cut short.
+  bool meshMissing() const { return head_.mesh.blocks > meshBlocks_.size(); }
+  /// Bytes of the file that Mesh blocks take.
+  std::uint64_t meshBytes() const { return meshBytes_; }
+  /// A Mesh block, checked; there must be as many.
+  MeshBlock meshBlock(std::size_t number) const;
   /// Tiles were lost at the end (streaming layout, cut short).
   bool tilesMissing() const { return tilesMissing_; }
 
@@ -47,6 +53,8 @@ class ContainerReader {
   /// The index that the End block at the end of the file leads to; false if there is none.
   bool readIndex(std::uint64_t firstTile, const DecodeLimits& limits);
   void recoverTiles(std::uint64_t firstTile, const DecodeLimits& limits);
+  /// Finds the Mesh blocks that begin at `offset` and moves it behind them.
+  void findMeshBlocks(std::uint64_t& offset);
   void readTrailingBlocks(std::uint64_t offset, std::uint64_t end) const;
   std::string chunkName(std::size_t tile, std::size_t column) const;
 
@@ -57,6 +65,8 @@ class ContainerReader {
   unsigned wholeLayers_ = 0;
   std::uint64_t overheadBytes_ = 0;
   bool tilesMissing_ = false;
+  std::uint64_t meshBytes_ = 0;
+  std::vector<std::uint64_t> meshBlocks_;    ///< offsets
   std::vector<std::uint64_t> chunkOffsets_;  ///< tile-major, layout_.columns() a tile
   std::vector<std::uint64_t> tileBlocks_;    ///< streaming layout: offsets of the tiles' blocks
 };

@@ -43,7 +43,8 @@ Bytes fileEnd(ByteView table, std::uint64_t indexOffset) {
   return bytes;
 }
 
-std::uint64_t writeProgressive(ByteSink& sink, const FileHead& head, const ChunkSource& chunks) {
+std::uint64_t writeProgressive(ByteSink& sink, const FileHead& head, const ChunkSource& chunks,
+                               const MeshSource& mesh) {
   CountedSink out(sink);
   out.put(fileStart(head));
   const std::size_t columns = head.layout().columns();
@@ -52,6 +53,9 @@ std::uint64_t writeProgressive(ByteSink& sink, const FileHead& head, const Chunk
       if (head.tiles[tile].chunkSizes[column] == kNoChunk) continue;
       out.put(makeChunk(chunks(tile, column)));
     }
+  }
+  for (std::size_t block = 0; block < head.mesh.blocks; ++block) {
+    out.put(makeBlock(BlockType::Mesh, mesh(block)));
   }
   return out.written();
 }
@@ -84,8 +88,11 @@ void ContainerWriter::addTile(TileRecord record, std::vector<Bytes> chunks) {
   tiles_.push_back(std::move(record));
 }
 
-void ContainerWriter::finish() {
+void ContainerWriter::finish(const MeshSource& mesh) {
   if (head_.streaming) {
+    for (std::size_t block = 0; block < head_.mesh.blocks; ++block) {
+      put(makeBlock(BlockType::Mesh, mesh(block)));
+    }
     ByteWriter table;
     writeTileTable(table, layout_, tiles_);
     put(fileEnd(table.data(), written_));
@@ -93,9 +100,10 @@ void ContainerWriter::finish() {
   }
   head_.tiles = std::move(tiles_);
   std::vector<std::size_t> next(head_.tiles.size());
-  written_ = writeProgressive(sink_, head_, [&](std::size_t tile, std::size_t /*column*/) {
+  const ChunkSource chunks = [&](std::size_t tile, std::size_t /*column*/) {
     return std::move(chunks_[tile][next[tile]++]);
-  });
+  };
+  written_ = writeProgressive(sink_, head_, chunks, mesh);
 }
 
 }  // namespace bspc::container

@@ -20,11 +20,11 @@ constexpr unsigned kOptionalRecord = 128;
 static_assert(kMaxLayers == kLayersMask + 1);
 
 bool hasRecords(const FileHead& head) {
-  return head.keepsOrder || !head.arrays.empty() || !head.metadata.empty();
+  return head.keepsOrder || !head.arrays.empty() || !head.metadata.empty() || head.mesh.blocks > 0;
 }
 
 /// Tags of records (docs/format.md, "Head").
-enum Record : unsigned { kArrays = 1, kKeptOrder = 2, kMetadata = 128 };
+enum Record : unsigned { kArrays = 1, kKeptOrder = 2, kMesh = 3, kMetadata = 128 };
 
 void writeRecord(ByteWriter& out, unsigned tag, ByteView content) {
   out.u8(tag);
@@ -34,13 +34,18 @@ void writeRecord(ByteWriter& out, unsigned tag, ByteView content) {
 
 void writeRecords(ByteWriter& out, const FileHead& head) {
   out.varint((head.arrays.empty() ? 0U : 1U) + (head.keepsOrder ? 1U : 0U) +
-             (head.metadata.empty() ? 0U : 1U));
+             (head.mesh.blocks > 0 ? 1U : 0U) + (head.metadata.empty() ? 0U : 1U));
   if (!head.arrays.empty()) {
     ByteWriter table;
     writeArrayTable(table, head.arrays);
     writeRecord(out, kArrays, table.data());
   }
   if (head.keepsOrder) writeRecord(out, kKeptOrder, {});
+  if (head.mesh.blocks > 0) {
+    ByteWriter mesh;
+    writeMeshRecord(mesh, head.mesh);
+    writeRecord(out, kMesh, mesh.data());
+  }
   if (!head.metadata.empty()) {
     ByteWriter metadata;
     writeMetadata(metadata, head.metadata);
@@ -56,6 +61,9 @@ void readRecord(unsigned tag, ByteView content, const DecodeLimits& limits, File
       break;
     case kKeptOrder:
       head.keepsOrder = true;
+      break;
+    case kMesh:
+      head.mesh = readMeshRecord(in, limits);
       break;
     case kMetadata:
       head.metadata = readMetadata(in, limits);

@@ -9,6 +9,7 @@
 #include "bspc/limits.h"
 #include "container/byte_reader.h"
 #include "container/byte_writer.h"
+#include "container/mesh_record.h"
 #include "container/tile_layout.h"
 #include "container/tile_record.h"
 
@@ -31,6 +32,7 @@ struct FileHead {
   std::vector<ArrayDescription> arrays;  ///< of the points, by name
   bool keepsOrder = false;               ///< points come back in the order of the input
   Metadata metadata;
+  MeshRecord mesh;
   std::vector<TileRecord> tiles;  ///< progressive layout only
 
   TileLayout layout() const;

@@ -172,6 +172,11 @@ EncodeOptions agreeOnParts(const std::vector<Bytes>& descriptions, const EncodeO
 }
 
 FilePart encodePart(const PointSetView& points, const EncodeOptions& agreed) {
+  if (points.mesh() != nullptr && !points.mesh()->empty()) {
+    throw Error(ErrorCode::Unsupported,
+                "several processes cannot write the cells of a mesh together; write a file each "
+                "and join them");
+  }
   MemorySink sink;
   const EncodeReport report = encode(points, sink, agreed);
   FilePart part = partOf(sink.take());

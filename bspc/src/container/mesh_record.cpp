@@ -1,0 +1,93 @@
+#include "container/mesh_record.h"
+
+#include "bspc/error.h"
+#include "container/array_table.h"
+
+namespace bspc::container {
+
+namespace {
+
+/// No mesh has as many cells of a sort.
+constexpr std::uint64_t kMostCells = std::uint64_t{1} << 60;
+
+void writeCounts(ByteWriter& out, const CellCounts& counts) {
+  out.varint(counts.vertices);
+  out.varint(counts.lines);
+  out.varint(counts.faces);
+}
+
+CellCounts readCounts(ByteReader& in) {
+  CellCounts counts;
+  counts.vertices = in.varint();
+  counts.lines = in.varint();
+  counts.faces = in.varint();
+  if (counts.vertices > kMostCells || counts.lines > kMostCells || counts.faces > kMostCells) {
+    in.fail("an impossible number of cells");
+  }
+  return counts;
+}
+
+Bytes readBytes(ByteReader& in) {
+  const ByteView view = in.bytes(in.varint());
+  return {view.begin(), view.end()};
+}
+
+void writeBytes(ByteWriter& out, const Bytes& bytes) {
+  out.varint(bytes.size());
+  out.bytes(bytes);
+}
+
+}  // namespace
+
+std::uint64_t CellCounts::total() const { return vertices + lines + faces; }
+
+void CellCounts::add(const CellCounts& more) {
+  vertices += more.vertices;
+  lines += more.lines;
+  faces += more.faces;
+}
+
+void writeMeshRecord(ByteWriter& out, const MeshRecord& mesh) {
+  writeCounts(out, mesh.counts);
+  out.varint(mesh.blocks);
+  writeArrayTable(out, mesh.arrays);
+}
+
+MeshRecord readMeshRecord(ByteReader& in, const DecodeLimits& limits) {
+  MeshRecord mesh;
+  mesh.counts = readCounts(in);
+  mesh.blocks = in.varint();
+  if (mesh.blocks == 0) in.fail("a mesh without blocks");
+  // Each block stands for a tile at least.
+  if (mesh.blocks > limits.tiles) {
+    throw Error(ErrorCode::LimitExceeded, "the file has " + std::to_string(mesh.blocks) +
+                                              " blocks of cells, more than the limit of " +
+                                              std::to_string(limits.tiles) +
+                                              " tiles; raise it if the file is to be trusted");
+  }
+  mesh.arrays = readArrayTable(in, limits);
+  return mesh;
+}
+
+Bytes writeMeshBlock(const MeshBlock& block) {
+  ByteWriter out;
+  out.varint(block.firstTile);
+  out.varint(block.tiles);
+  writeCounts(out, block.counts);
+  writeBytes(out, block.cells);
+  for (const Bytes& payload : block.arrays) writeBytes(out, payload);
+  return out.take();
+}
+
+MeshBlock readMeshBlock(ByteReader& in, std::size_t arrays) {
+  MeshBlock block;
+  block.firstTile = in.varint();
+  block.tiles = in.varint();
+  block.counts = readCounts(in);
+  block.cells = readBytes(in);
+  for (std::size_t a = 0; a < arrays; ++a) block.arrays.push_back(readBytes(in));
+  in.expectEnd();
+  return block;
+}
+
+}  // namespace bspc::container
