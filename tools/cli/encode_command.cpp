@@ -104,7 +104,7 @@ std::string bitsText(std::uint64_t bytes, std::uint64_t points) {
 
 /// " (12.1 positions, 5.2 in 3 arrays, 2.9 order)", if there is more than positions.
 std::string sharesText(const EncodeReport& report) {
-  if (report.arrays.empty() && report.orderBytes == 0) return "";
+  if (report.arrays.empty() && report.orderBytes == 0 && report.meshBytes == 0) return "";
   std::string text = " (" + bitsText(report.geometryBytes, report.points) + " positions";
   std::uint64_t arrayBytes = 0;
   for (const ArrayReport& array : report.arrays) arrayBytes += array.bytes;
@@ -112,6 +112,7 @@ std::string sharesText(const EncodeReport& report) {
     text += ", " + bitsText(arrayBytes, report.points) + " in " +
             formats::counted(report.arrays.size(), "array", "arrays");
   }
+  if (report.meshBytes > 0) text += ", " + bitsText(report.meshBytes, report.points) + " faces";
   if (report.orderBytes > 0) text += ", " + bitsText(report.orderBytes, report.points) + " order";
   return text + ")";
 }
@@ -152,7 +153,8 @@ void printReport(const EncodeArguments& args, const std::string& name, const Enc
   std::cerr << '\n';
 }
 
-/// Reads the points with their arrays and encodes them at once: streams cannot carry arrays yet.
+/// Reads the points with their arrays and cells and encodes them at once: streams carry points
+/// only.
 EncodeReport encodeWhole(ModelPoints& points, ByteSink& sink, const EncodeOptions& options) {
   constexpr std::size_t kBlock = std::size_t{1} << 16;
   const std::size_t pointBytes = 3 * scalarSize(points.type());
@@ -166,6 +168,8 @@ EncodeReport encodeWhole(ModelPoints& points, ByteSink& sink, const EncodeOption
   }
   PointSetView view(positions.data(), points.type(), positions.size() / pointBytes, 0);
   for (const ArrayValues& array : values) view.addArray(array.view());
+  const MeshCells mesh = points.takeMesh();
+  if (!mesh.empty()) view.setMesh(&mesh);
   return encode(view, sink, options);
 }
 
@@ -190,8 +194,9 @@ void runEncode(const EncodeArguments& args) {
       return draw(share);
     };
     report = naming(args.input, [&] {
-      return points.arrays().empty() ? encodeStream(points, sink, options)
-                                     : encodeWhole(points, sink, options.encoding);
+      return points.arrays().empty() && !points.mayHaveMesh()
+                 ? encodeStream(points, sink, options)
+                 : encodeWhole(points, sink, options.encoding);
     });
     output.commit();
   }
@@ -232,7 +237,7 @@ void addContentOptions(CLI::App& command, EncodeArguments& args) {
   command.add_flag("--no-faces", content.noFaces, "Leave out faces and edges")->group(kGroup);
   command
       .add_flag("--drop-other", content.dropOther,
-                "Leave out whatever a .bspc file cannot hold, such as faces and lists")
+                "Leave out whatever a .bspc file cannot hold, such as lists")
       ->group(kGroup);
   command
       .add_flag("--drop-nonfinite", args.dropNonFinite,
