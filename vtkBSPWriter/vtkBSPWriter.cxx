@@ -19,6 +19,16 @@
 
 vtkStandardNewMacro(vtkBSPWriter);
 
+namespace {
+
+/// What a map has for that name; 0 if nothing.
+double valueOf(const std::map<std::string, double>& values, const char* name) {
+  const auto found = values.find(name != nullptr ? name : "");
+  return found != values.end() ? found->second : 0;
+}
+
+}  // namespace
+
 /// What needs the library's types, which the header keeps to itself.
 class vtkBSPWriter::vtkInternals {
  public:
@@ -195,6 +205,10 @@ void vtkBSPWriter::Report(const bspc::EncodeReport& report) {
   this->NumberOfBytesWritten = static_cast<vtkIdType>(report.fileBytes);
   this->Exact = report.exact;
   std::copy(report.maxError.begin(), report.maxError.end(), this->MaximumError);
+  this->MaximumArrayErrors.clear();
+  for (const bspc::ArrayReport& array : report.arrays) {
+    this->MaximumArrayErrors[array.name] = array.greatestError;
+  }
 }
 
 vtkDataArraySelection* vtkBSPWriter::GetPointDataArraySelection() {
@@ -216,8 +230,11 @@ void vtkBSPWriter::SetArrayTolerance(const char* name, double tolerance) {
 }
 
 double vtkBSPWriter::GetArrayTolerance(const char* name) {
-  const auto found = this->ArrayTolerances.find(name != nullptr ? name : "");
-  return found != this->ArrayTolerances.end() ? found->second : 0;
+  return valueOf(this->ArrayTolerances, name);
+}
+
+double vtkBSPWriter::GetMaximumArrayError(const char* name) {
+  return valueOf(this->MaximumArrayErrors, name);
 }
 
 void vtkBSPWriter::ClearArrayTolerances() {

@@ -183,6 +183,9 @@ class VTKBSPWRITER_EXPORT vtkBSPWriter : public vtkWriter {
   vtkGetMacro(NumberOfBytesWritten, vtkIdType);
   vtkGetMacro(Exact, bool);
   vtkGetVector3Macro(MaximumError, double);
+  /// The greatest error of a value of that array (of normals: the greatest angle, in degrees); 0 if
+  /// all of them come back bit for bit.
+  double GetMaximumArrayError(const char* name);
   ///@}
 
   /// Returns 1 if everything was written, else 0.
@@ -237,6 +240,7 @@ class VTKBSPWRITER_EXPORT vtkBSPWriter : public vtkWriter {
   vtkIdType NumberOfBytesWritten = 0;
   bool Exact = true;
   double MaximumError[3] = {0, 0, 0};
+  std::map<std::string, double> MaximumArrayErrors;
 };
 
 #endif

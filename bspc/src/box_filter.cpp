@@ -1,11 +1,13 @@
 #include "box_filter.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include "bspc/error.h"
+#include "grid/float_grid.h"
 #include "point_selection.h"
 
 namespace bspc {
@@ -32,7 +34,8 @@ std::uint64_t firstIndex(Predicate holds) {
 
 }  // namespace
 
-BoxFilter::BoxFilter(const Grid& grid, const Box& box) {
+BoxFilter::BoxFilter(const Grid& grid, const Box& box)
+    : box_(box), halved_(lattice::hasLowHalves(grid)) {
   for (std::size_t k = 0; k < 3; ++k) {
     const double lower = box.lower[k];
     const double upper = box.upper[k];
@@ -41,6 +44,10 @@ BoxFilter::BoxFilter(const Grid& grid, const Box& box) {
           ErrorCode::InvalidArgument,
           std::string("a box needs a lower bound that is not above the upper one, unlike ") +
               std::to_string(lower) + " and " + std::to_string(upper) + " along " + "xyz"[k]);
+    }
+    if (lattice::isFloatGrid(grid)) {
+      setFloatRange(grid, k);
+      continue;
     }
     const int axis = static_cast<int>(k);
     const std::uint64_t first =
@@ -56,6 +63,55 @@ BoxFilter::BoxFilter(const Grid& grid, const Box& box) {
   }
 }
 
+/// The indices whose coordinates can lie in the box; both bounds are numbers, maybe infinite.
+void BoxFilter::setFloatRange(const Grid& grid, std::size_t axis) {
+  const lattice::OrderRange finite = lattice::finiteMultiples(grid.scalarType);
+  const std::int64_t base = grid.axes[axis].base;
+  // The first multiple that a predicate holds for, among the finite ones and what lies behind them.
+  const auto firstMultiple = [&](auto holds) {
+    std::int64_t from = finite.first;
+    std::int64_t to = std::int64_t{finite.last} + 1;
+    while (from < to) {
+      const std::int64_t middle = from + (to - from) / 2;
+      const auto k = static_cast<std::uint32_t>(middle);
+      if (holds(k)) {
+        to = middle;
+      } else {
+        from = middle + 1;
+      }
+    }
+    return from;
+  };
+  constexpr std::uint32_t kHighest = 0xFFFFFFFF;
+  const auto greatest = [&](std::uint32_t k) {
+    return halved_ ? lattice::doubleOfHalves(k, kHighest) : double{lattice::floatOfOrder(k)};
+  };
+  const auto least = [&](std::uint32_t k) {
+    return halved_ ? lattice::doubleOfHalves(k, 0) : double{lattice::floatOfOrder(k)};
+  };
+  const double lower = box_.lower[axis];
+  const double upper = box_.upper[axis];
+  const std::int64_t first = firstMultiple([&](std::uint32_t k) { return greatest(k) >= lower; });
+  const std::int64_t end = firstMultiple([&](std::uint32_t k) { return least(k) > upper; });
+  constexpr std::int64_t kLast = kIndices - 1;
+  if (first >= end || end - 1 < base || first > base + kLast) {
+    empty_ = true;
+    return;
+  }
+  bases_[axis] = static_cast<std::uint32_t>(base);
+  first_[axis] = static_cast<std::uint32_t>(std::max(first - base, std::int64_t{0}));
+  last_[axis] = static_cast<std::uint32_t>(std::min(end - 1 - base, kLast));
+}
+
+bool BoxFilter::holds(const GridPoint& p, const GridPoint& lowHalves) const {
+  bool inside = true;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double x = lattice::doubleOfHalves(bases_[k] + p[k], lowHalves[k]);
+    inside = inside && box_.lower[k] <= x && x <= box_.upper[k];
+  }
+  return inside;
+}
+
 bool BoxFilter::touches(const GridPoint& lower, const GridPoint& upper) const {
   bool touching = !empty_;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -67,7 +123,9 @@ bool BoxFilter::touches(const GridPoint& lower, const GridPoint& upper) const {
 void BoxFilter::apply(DecodedPoints& points) const {
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < points.points.size(); ++i) {
-    if (contains(points.points[i])) kept.push_back(i);
+    const bool inside = points.lowHalves.empty() ? contains(points.points[i])
+                                                 : contains(points.points[i], points.lowHalves[i]);
+    if (inside) kept.push_back(i);
   }
   keepPoints(points, kept);
 }

@@ -20,8 +20,11 @@ constexpr std::uint64_t kFastTilePoints = 65536;
 /// Up to here a set is one tile: its file is read in a moment, and what tiles learn apart from each
 /// other costs up to 4 % (measured on scans with coordinates on uneven grids).
 constexpr std::uint64_t kOneFastTile = std::uint64_t{1} << 19;
+/// Tiles of method predictive learn more the larger they are.
+constexpr std::uint64_t kPredictiveTilePoints = 2000000;
 constexpr unsigned kDefaultEffort = 2;
-constexpr unsigned kMaxEffort = 4;
+constexpr unsigned kMaxFastEffort = 4;  ///< method fast up to here, predictive above
+constexpr unsigned kMaxEffort = 9;
 /// For methods without a choice, which are for those who want small files.
 constexpr unsigned kFullArrayEffort = 6;
 
@@ -41,11 +44,20 @@ unsigned fastLayers(std::uint64_t points, std::uint64_t tilePoints) {
   return points / 64 <= kLargeCoarseLayer ? 2 : 3;
 }
 
+Method methodOfEffort(unsigned effort) {
+  return effort <= kMaxFastEffort ? Method::Fast : Method::Predictive;
+}
+
 unsigned chooseLayers(const EncodeOptions& options, Method method, std::uint64_t points,
                       std::uint64_t tilePoints) {
   if (options.layers != 0) return options.layers;
   if (method == Method::Fast) return fastLayers(points, tilePoints);
   return quarteredLayers(std::min(points, tilePoints));
+}
+
+std::uint64_t usualTilePoints(Method method, std::uint64_t points) {
+  if (method == Method::Predictive) return kPredictiveTilePoints;
+  return method == Method::Fast && points > kOneFastTile ? kFastTilePoints : kMaxTilePoints;
 }
 
 void checkWishes(const EncodeOptions& options) {
@@ -60,9 +72,15 @@ void checkWishes(const EncodeOptions& options) {
                                                 " was asked for; efforts go from 1 to " +
                                                 std::to_string(kMaxEffort));
   }
-  if (options.method && *options.method != Method::Fast) {
-    throw Error(ErrorCode::InvalidArgument, std::string("method ") + methodName(*options.method) +
-                                                " has no efforts; leave one of the two out");
+  if (options.method && *options.method != methodOfEffort(*options.effort)) {
+    const bool hasEfforts =
+        *options.method == Method::Fast || *options.method == Method::Predictive;
+    throw Error(ErrorCode::InvalidArgument,
+                std::string("method ") + methodName(*options.method) +
+                    (hasEfforts ? " does not have the effort " + std::to_string(*options.effort) +
+                                      ": 1 to 4 are method fast, 5 to 9 method predictive"
+                                : " has no efforts") +
+                    "; leave one of the two out");
   }
 }
 
@@ -71,7 +89,8 @@ void checkWishes(const EncodeOptions& options) {
 CodingPlan planCoding(const EncodeOptions& options, std::uint64_t points) {
   checkWishes(options);
   CodingPlan plan;
-  const Method id = options.method.value_or(Method::Fast);
+  const Method id =
+      options.method.value_or(methodOfEffort(options.effort.value_or(kDefaultEffort)));
   plan.method = geometry::findGeometryMethod(id);
   if (plan.method == nullptr) {
     throw Error(ErrorCode::InvalidArgument,
@@ -83,10 +102,11 @@ CodingPlan planCoding(const EncodeOptions& options, std::uint64_t points) {
   }
   plan.wishes.stopPoints = options.stopPoints;
   plan.wishes.stopLevel = options.stopLevel;
-  plan.wishes.effort = options.effort.value_or(kDefaultEffort);
-  plan.arrayEffort = id == Method::Fast ? plan.wishes.effort : kFullArrayEffort;
-  const bool cuts = id == Method::Fast && points > kOneFastTile;
-  const std::uint64_t usual = cuts ? kFastTilePoints : kMaxTilePoints;
+  plan.wishes.effort =
+      options.effort.value_or(id == Method::Predictive ? kMaxEffort : kDefaultEffort);
+  plan.arrayEffort =
+      id == Method::Fast || id == Method::Predictive ? plan.wishes.effort : kFullArrayEffort;
+  const std::uint64_t usual = usualTilePoints(id, points);
   plan.tilePoints = std::min(options.tilePoints != 0 ? options.tilePoints : usual, kMaxTilePoints);
   plan.layers = chooseLayers(options, id, points, plan.tilePoints);
   return plan;

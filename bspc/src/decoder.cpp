@@ -1,9 +1,13 @@
 #include "bspc/decoder.h"
 
 #include <algorithm>
+#include <cstring>
+#include <string>
 
+#include "bspc/error.h"
 #include "container/container_reader.h"
 #include "decoded_tiles.h"
+#include "grid/float_grid.h"
 #include "mesh/mesh_decoder.h"
 #include "parallel.h"
 #include "point_selection.h"
@@ -44,9 +48,11 @@ void addTileInfo(FileInfo& info, const container::TileLayout& layout,
     const std::size_t part = layout.partOf(column);
     const std::uint64_t bytes = tile.chunkSizes[column];
     if (bytes == container::kNoChunk || part == container::kGeometryPart) continue;
-    std::uint64_t& sum = part == container::kOrderPart
-                             ? info.orderBytes
-                             : info.arrays[part - container::kFirstArrayPart].bytes;
+    const std::size_t hidden = layout.arrays.size() - info.arrays.size();
+    const std::size_t named = container::kFirstArrayPart + hidden;
+    std::uint64_t& sum = part == container::kOrderPart ? info.orderBytes
+                         : part < named                ? info.geometryBytes
+                                                       : info.arrays[part - named].bytes;
     sum = saturatingAdd(sum, bytes);
   }
   info.tiles.push_back(t);
@@ -69,6 +75,18 @@ MeshInfo describeMesh(const container::ContainerReader& file) {
   return info;
 }
 
+/// Whether the corners of a box of float bits are finite: all points in it then are.
+void requireFinite(const FileInfo& info) {
+  if (!lattice::isFloatGrid(info.grid)) return;
+  const lattice::OrderRange finite = lattice::finiteMultiples(info.grid.scalarType);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::int64_t base = info.grid.axes[k].base;
+    if (base + info.lower[k] >= finite.first && base + info.upper[k] <= finite.last) continue;
+    throw Error(ErrorCode::Corrupt,
+                std::string("the box of the points holds NaN or infinities along ") + "xyz"[k]);
+  }
+}
+
 FileInfo describe(const container::ContainerReader& file) {
   FileInfo info;
   info.versionMajor = container::kVersionMajor;
@@ -89,6 +107,7 @@ FileInfo describe(const container::ContainerReader& file) {
   info.keepsOrder = file.head().keepsOrder;
   info.mesh = describeMesh(file);
   for (const container::TileRecord& tile : file.tiles()) addTileInfo(info, file.layout(), tile);
+  if (info.points > 0) requireFinite(info);
   return info;
 }
 
@@ -148,9 +167,16 @@ DecodedPoints Decoder::Impl::place(const Query& query, std::size_t index,
 
 void Decoder::Impl::addArrays(const Query& query, DecodedTileArrays values,
                               DecodedPoints& points) const {
+  const std::size_t hidden = file_.head().hiddenArrays();
   for (std::size_t i = 0; i < query.arrays.size(); ++i) {
+    if (query.arrays[i] < hidden) {
+      const Bytes& halves = values.arrays[i].numbers;
+      points.lowHalves.resize(halves.size() / sizeof(GridPoint));
+      if (!halves.empty()) std::memcpy(points.lowHalves.data(), halves.data(), halves.size());
+      continue;
+    }
     ArrayValues array;
-    static_cast<ArrayDescription&>(array) = file_.head().arrays[query.arrays[i]];
+    static_cast<ArrayDescription&>(array) = file_.head().arrays[query.arrays[i] - hidden];
     array.values = std::move(values.arrays[i].numbers);
     array.strings = std::move(values.arrays[i].strings);
     points.arrays.push_back(std::move(array));

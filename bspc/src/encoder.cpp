@@ -6,8 +6,11 @@
 
 #include "arrays/array_checks.h"
 #include "arrays/array_source.h"
+#include "arrays/low_halves.h"
 #include "coding_plan.h"
 #include "container/container_writer.h"
+#include "encoded_head.h"
+#include "grid/float_grid.h"
 #include "mesh/mesh_encoder.h"
 #include "progress_scale.h"
 #include "set_encoder.h"
@@ -19,18 +22,6 @@ namespace {
 
 /// Share of the time that putting points on the grid takes.
 constexpr double kGridShare = 0.15;
-
-container::FileHead headOf(const EncodeReport& report, const ArraySource& arrays,
-                           const MeshEncoder& mesh, const EncodeOptions& options) {
-  container::FileHead head;
-  head.layers = report.layers;
-  head.grid = report.grid;
-  head.keepsOrder = options.keepOrder;
-  head.metadata = options.metadata;
-  head.mesh = mesh.record();
-  for (std::size_t a = 0; a < arrays.size(); ++a) head.arrays.push_back(arrays.description(a));
-  return head;
-}
 
 /// Input indices of the points that are kept, in order.
 std::vector<std::uint64_t> keptOrder(const GridFit& fit) {
@@ -55,6 +46,7 @@ EncodeReport encode(const PointSetView& points, ByteSink& sink, const EncodeOpti
     return true;
   };
   const GridFit fit = fitGrid(points, options.grid, fittingProgress);
+  refuseStopsOnFloats(fit.grid, options);
   const CodingPlan plan = planCoding(options, fit.points.size());
   EncodeReport report;
   report.method = plan.method->id();
@@ -68,11 +60,17 @@ EncodeReport encode(const PointSetView& points, ByteSink& sink, const EncodeOpti
 
   ProgressScale coding(options.progress, kGridShare, 1);
   coding.report(0);
-  const ArraySource arrays(points.arrays(), options.originalIds);
-  for (std::size_t a = 0; a < arrays.size(); ++a) {
-    report.arrays.push_back({arrays.description(a).name, 0, 0});
+  std::vector<ArrayView> views(points.arrays().begin(), points.arrays().end());
+  std::vector<GridPoint> halves;
+  const bool hasHalves = lattice::hasLowHalves(report.grid);
+  if (hasHalves) {
+    halves = lowHalvesOf(points);
+    views.insert(views.begin(), lowHalvesView(halves));
   }
-  container::ContainerWriter writer(sink, options.layout, headOf(report, arrays, mesh, options));
+  const ArraySource arrays(views, hasHalves ? 1 : 0, options.originalIds);
+  container::FileHead head = beginFile(arrays, options, report);
+  head.mesh = mesh.record();
+  container::ContainerWriter writer(sink, options.layout, std::move(head));
   SharedProgress progress(coding, report.points);
   EncodeOptions pointOptions = options;
   pointOptions.wantOrder = options.wantOrder || mesh.hasWork();

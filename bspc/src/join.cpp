@@ -125,7 +125,7 @@ class Joiner {
     tile.addLacking(more);
     std::vector<container::TileArray> arrays;
     for (std::size_t a = 0; a < layout_.arrays.size(); ++a) {
-      arrays.push_back(tile.arrays[tables_.indexIn(f, a)]);
+      arrays.push_back(tile.arrays[sourceArray(f, a)]);
     }
     tile.arrays = std::move(arrays);
     std::vector<std::uint64_t> sizes(layout_.columns(), container::kNoChunk);
@@ -135,12 +135,18 @@ class Joiner {
     tile.chunkSizes = std::move(sizes);
   }
 
+  /// Where an array of the joined layout stands in that of a file.
+  std::size_t sourceArray(std::size_t f, std::size_t array) const {
+    const std::size_t hidden = head_.hiddenArrays();
+    return array < hidden ? array : hidden + tables_.indexIn(f, array - hidden);
+  }
+
   /// The column of a file that a column of the joined one comes from.
   std::size_t sourceColumn(std::size_t f, std::size_t column) const {
     const container::TileLayout& source = files_[f]->layout();
     std::size_t part = layout_.partOf(column);
     if (part >= container::kFirstArrayPart) {
-      part = container::kFirstArrayPart + tables_.indexIn(f, part - container::kFirstArrayPart);
+      part = container::kFirstArrayPart + sourceArray(f, part - container::kFirstArrayPart);
     }
     return source.column(layout_.layerOf(column) - (head_.layers - source.layers), part);
   }

@@ -39,6 +39,7 @@ void appendTo(std::vector<T>& to, std::vector<T>&& from) {
 void keepPoints(DecodedPoints& points, const std::vector<std::size_t>& kept) {
   if (kept.size() == points.points.size()) return;
   keepIn(points.points, kept);
+  keepIn(points.lowHalves, kept);
   keepIn(points.counts, kept);
   keepIn(points.cellIds, kept);
   for (ArrayValues& array : points.arrays) {
@@ -48,6 +49,7 @@ void keepPoints(DecodedPoints& points, const std::vector<std::size_t>& kept) {
 
 void reorderPoints(DecodedPoints& points, Span<const std::uint32_t> places) {
   reorderIn(points.points, places);
+  reorderIn(points.lowHalves, places);
   reorderIn(points.counts, places);
   reorderIn(points.cellIds, places);
   for (ArrayValues& array : points.arrays) {
@@ -57,6 +59,7 @@ void reorderPoints(DecodedPoints& points, Span<const std::uint32_t> places) {
 
 void appendPoints(DecodedPoints& to, DecodedPoints&& from) {
   appendTo(to.points, std::move(from.points));
+  appendTo(to.lowHalves, std::move(from.lowHalves));
   appendTo(to.counts, std::move(from.counts));
   appendTo(to.cellIds, std::move(from.cellIds));
   for (std::size_t a = 0; a < to.arrays.size(); ++a) {
@@ -66,8 +69,9 @@ void appendPoints(DecodedPoints& to, DecodedPoints&& from) {
 }
 
 std::uint64_t memoryOf(const DecodedPoints& points) {
-  std::uint64_t bytes = points.points.capacity() * sizeof(GridPoint) +
-                        (points.counts.capacity() + points.cellIds.capacity()) * 8;
+  std::uint64_t bytes =
+      (points.points.capacity() + points.lowHalves.capacity()) * sizeof(GridPoint) +
+      (points.counts.capacity() + points.cellIds.capacity()) * 8;
   for (const ArrayValues& array : points.arrays) {
     bytes += array.values.capacity();
     for (const std::string& text : array.strings) bytes += sizeof text + text.size();

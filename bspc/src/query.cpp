@@ -1,6 +1,7 @@
 #include "query.h"
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 
 #include "arrays/tile_array_decoder.h"
@@ -49,11 +50,13 @@ std::uint64_t pointsOf(const container::ContainerReader& file,
   return points;
 }
 
-/// Indices of the arrays that the options ask for.
+/// Indices in the layout of the arrays that the options ask for, and of those without a name.
 std::vector<std::size_t> chosenArrays(const container::ContainerReader& file,
                                       const DecodeOptions& options) {
   const std::vector<ArrayDescription>& all = file.head().arrays;
-  std::vector<std::size_t> chosen;
+  const std::size_t hidden = file.head().hiddenArrays();
+  std::vector<std::size_t> chosen(hidden);
+  std::iota(chosen.begin(), chosen.end(), std::size_t{0});
   if (options.arrays) {
     for (const std::string& name : *options.arrays) {
       const bool known = std::any_of(all.begin(), all.end(),
@@ -69,7 +72,7 @@ std::vector<std::size_t> chosenArrays(const container::ContainerReader& file,
   for (std::size_t a = 0; a < all.size(); ++a) {
     if (!options.arrays || std::find(options.arrays->begin(), options.arrays->end(), all[a].name) !=
                                options.arrays->end()) {
-      chosen.push_back(a);
+      chosen.push_back(hidden + a);
     }
   }
   return chosen;

@@ -16,11 +16,12 @@ struct Query {
   std::optional<BoxFilter> filter;
   std::vector<std::uint64_t> firstCells;  ///< of each of them, if cells are asked for
   unsigned level = 0;
-  std::uint64_t points = 0;         ///< in the tiles up to the level
-  bool complete = true;             ///< every point of the original is among them
-  std::vector<std::size_t> arrays;  ///< those asked for that have values at the level
-  bool inputOrder = false;          ///< points are put into the order of the input
-  bool thin = false;                ///< even the coarsest level has more than maxPoints
+  std::uint64_t points = 0;  ///< in the tiles up to the level
+  bool complete = true;      ///< every point of the original is among them
+  /// Those of the layout that are asked for, or have no name, and have values at the level.
+  std::vector<std::size_t> arrays;
+  bool inputOrder = false;  ///< points are put into the order of the input
+  bool thin = false;        ///< even the coarsest level has more than maxPoints
 };
 
 /// Throws Error (InvalidArgument, Truncated) if the options ask for what is not there.

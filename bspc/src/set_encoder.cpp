@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "arrays/order_trial.h"
 #include "lossy_error.h"
 #include "parallel.h"
 
@@ -12,12 +13,20 @@ void SetEncoder::encode(Span<const GridPoint> points, const std::vector<std::uin
                         const PointSetView* original) {
   sourceIndex_ = &sourceIndex;
   original_ = original;
+  considerOrder(points);
   // Points are sorted into tiles by 32-bit indices, so sets beyond that are cut into parts first.
   constexpr std::size_t kPart = std::size_t{1} << 31;
   for (std::size_t first = 0; first < points.size(); first += kPart) {
     const std::size_t count = std::min(kPart, points.size() - first);
     encodePart(first, points.subspan(first, count));
   }
+}
+
+void SetEncoder::considerOrder(Span<const GridPoint> points) {
+  constexpr unsigned kQuickest = 1;
+  const bool named = arrays_.source().size() > arrays_.source().hidden();
+  if (!named || arrays_.keepsOrder() || arrays_.effort() <= kQuickest) return;
+  arrays_.storeOrder(storedOrderPays(points, *sourceIndex_, arrays_.source(), arrays_.effort()));
 }
 
 void SetEncoder::encodePart(std::size_t offset, Span<const GridPoint> points) {
@@ -56,8 +65,13 @@ FinishedTile SetEncoder::encodeTile(const tiling::TileCut& cut, std::size_t tile
 void SetEncoder::finish(FinishedTile tile) {
   report_.geometryBytes += tile.geometryBytes;
   report_.orderBytes += tile.orderBytes;
+  const std::size_t hidden = arrays_.source().hidden();
   for (std::size_t a = 0; a < tile.arrayBytes.size(); ++a) {
-    ArrayReport& array = report_.arrays[a];
+    if (a < hidden) {
+      report_.geometryBytes += tile.arrayBytes[a];
+      continue;
+    }
+    ArrayReport& array = report_.arrays[a - hidden];
     array.bytes += tile.arrayBytes[a];
     array.greatestError = std::max(array.greatestError, tile.arrayErrors[a]);
   }
@@ -66,6 +80,8 @@ void SetEncoder::finish(FinishedTile tile) {
     addLossyError(*original_, tile.sources, tile.decoded, tile.record.lower, report_);
   }
   if (options_.wantOrder) {
+    // Decoders put points back into the order of the input.
+    if (options_.keepOrder) std::sort(tile.sources.begin(), tile.sources.end());
     report_.order.insert(report_.order.end(), tile.sources.begin(), tile.sources.end());
   }
   writer_.addTile(std::move(tile.record), std::move(tile.chunks));

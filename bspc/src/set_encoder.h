@@ -34,6 +34,8 @@ class SetEncoder {
               const PointSetView* original);
 
  private:
+  /// Decides whether the order of the points is stored for the sake of their arrays.
+  void considerOrder(Span<const GridPoint> points);
   void encodePart(std::size_t offset, Span<const GridPoint> points);
   tiling::TileCut cut(Span<const GridPoint> points) const;
   FinishedTile encodeTile(const tiling::TileCut& cut, std::size_t tile, std::size_t offset,

@@ -26,8 +26,7 @@ std::vector<float> restore(const char* path) {
   bspc::Decoder decoder(std::make_shared<bspc::StreamSource>(file));
   const bspc::DecodedPoints decoded = decoder.decode();  // in the coder's order, not the input's
   std::vector<float> xyz(3 * decoded.points.size());
-  bspc::restorePositions(decoder.info().grid, bspc::Span<const bspc::GridPoint>(decoded.points),
-                         xyz.data());
+  bspc::restorePositions(decoder.info().grid, decoded, xyz.data());
   return xyz;
 }
 

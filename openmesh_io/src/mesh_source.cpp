@@ -72,9 +72,8 @@ void takePersistent(Iterator begin, Iterator end, const std::vector<Handle>& han
     const OpenMesh::BaseProperty* property = *begin;
     if (property == nullptr || !property->persistent() || isInternal(property->name())) continue;
     ArrayValues array;
-    const bool taken = anyPropertyType([&](auto tag) {
-      return takeAs<typename decltype(tag)::Type>(*property, handles, array);
-    });
+    const bool taken = anyPropertyType(
+        [&](auto tag) { return takeAs<typename decltype(tag)::Type>(*property, handles, array); });
     if (!taken) {
       refuse(ErrorCode::Unsupported, "the persistent property \"" + property->name() +
                                          "\" is of a type that .bspc files cannot hold; make it a "
@@ -159,8 +158,9 @@ void MeshSource::takeFaces() {
     for (const OpenMesh::VertexHandle corner : corners) {
       const std::uint32_t number = numberOf[static_cast<std::size_t>(corner.idx())];
       if (number == kGone) {
-        refuse(ErrorCode::InvalidArgument, "a face that is not deleted has a vertex that is; call "
-                                           "garbage_collection() or repair the mesh");
+        refuse(ErrorCode::InvalidArgument,
+               "a face that is not deleted has a vertex that is; call "
+               "garbage_collection() or repair the mesh");
       }
       face.push_back(number);
     }

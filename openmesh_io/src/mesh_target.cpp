@@ -137,9 +137,10 @@ void MeshTarget::setArray(const ArrayValues& array, const std::vector<Handle>& h
                           const std::vector<std::size_t>& sources) {
   if (setStandard(array, handles, sources)) return;
   OpenMesh::BaseKernel* kernel = importer_.kernel();
-  const bool set = kernel != nullptr && anyPropertyType([&](auto tag) {
-    return setProperty<typename decltype(tag)::Type>(*kernel, array, handles, sources);
-  });
+  const bool set =
+      kernel != nullptr && anyPropertyType([&](auto tag) {
+        return setProperty<typename decltype(tag)::Type>(*kernel, array, handles, sources);
+      });
   if (set) {
     found_ += Options::Custom;
   } else {
@@ -159,20 +160,19 @@ bool MeshTarget::setStandard(const ArrayValues& array, const std::vector<Handle>
     for (std::size_t i = 0; i < handles.size(); ++i) set(handles[i], sources[i]);
     return true;
   };
-  if (array.semantic == Semantic::Normals && array.components == 3 &&
-      isFloatingPoint(array.type)) {
-    return each(kVertex ? Options::VertexNormal : Options::FaceNormal, [&](Handle h, std::size_t i) {
-      if (array.type == ScalarType::Float32) {
-        importer_.set_normal(h, vectorAt<OpenMesh::Vec3f>(array, i));
-      } else {
-        importer_.set_normal(h, vectorAt<OpenMesh::Vec3d>(array, i));
-      }
-    });
+  if (array.semantic == Semantic::Normals && array.components == 3 && isFloatingPoint(array.type)) {
+    return each(kVertex ? Options::VertexNormal : Options::FaceNormal,
+                [&](Handle h, std::size_t i) {
+                  if (array.type == ScalarType::Float32) {
+                    importer_.set_normal(h, vectorAt<OpenMesh::Vec3f>(array, i));
+                  } else {
+                    importer_.set_normal(h, vectorAt<OpenMesh::Vec3d>(array, i));
+                  }
+                });
   }
   if (array.semantic == Semantic::Colours) return setColours(array, handles, sources);
   if constexpr (kVertex) {
-    if (array.semantic == Semantic::TextureCoordinates &&
-        hasShape(array, ScalarType::Float32, 2)) {
+    if (array.semantic == Semantic::TextureCoordinates && hasShape(array, ScalarType::Float32, 2)) {
       return each(Options::VertexTexCoord, [&](Handle h, std::size_t i) {
         importer_.set_texcoord(h, vectorAt<OpenMesh::Vec2f>(array, i));
       });
@@ -198,8 +198,8 @@ bool MeshTarget::setColours(const ArrayValues& array, const std::vector<Handle>&
   if ((!floats && array.type != ScalarType::UInt8) || (!alpha && array.components != 3)) {
     return false;
   }
-  const Options::Flag flag = std::is_same_v<Handle, OpenMesh::VertexHandle> ? Options::VertexColor
-                                                                            : Options::FaceColor;
+  const Options::Flag flag =
+      std::is_same_v<Handle, OpenMesh::VertexHandle> ? Options::VertexColor : Options::FaceColor;
   found_ += flag;
   if (floats) found_ += Options::ColorFloat;
   if (alpha) found_ += Options::ColorAlpha;

@@ -76,7 +76,10 @@ class Reader final : public OpenMesh::IO::BaseReader {
  public:
   std::string get_description() const override { return "Compressed point sets and meshes"; }
   std::string get_extensions() const override { return "bspc"; }
-  std::string get_magic() const override { return "\x8B" "BSP"; }
+  std::string get_magic() const override {
+    return "\x8B"
+           "BSP";
+  }
   bool can_u_read(const std::string& filename) const override { return isBspcName(filename); }
   bool read(const std::string& filename, BaseImporter& importer, Options& options) override {
     return openmesh::read(filename, importer, options, readSettings());

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Mapping, NamedTuple, Optional, Tuple, Union
+from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Tuple, Union
 
 import numpy
 from numpy.typing import ArrayLike
@@ -24,6 +24,8 @@ class WriteReport(NamedTuple):
     """Whether every coordinate comes back as the number that went in (-0 as 0)."""
     max_error: Tuple[float, float, float]
     """Greatest error along x, y and z, in units of the data."""
+    array_errors: Dict[str, float]
+    """Greatest error of a value by name of the array (of normals: greatest angle, in degrees)."""
 
 
 def write(
@@ -84,7 +86,13 @@ def _run(writer: vtkBSPWriter) -> WriteReport:
         writer.GetNumberOfBytesWritten(),
         bool(writer.GetExact()),
         writer.GetMaximumError(),
+        {name: writer.GetMaximumArrayError(name) for name in _array_names(writer)},
     )
+
+
+def _array_names(writer: vtkBSPWriter) -> List[str]:
+    attributes = writer.GetInput().GetPointData()
+    return [attributes.GetArrayName(i) for i in range(attributes.GetNumberOfArrays())]
 
 
 def _writer(

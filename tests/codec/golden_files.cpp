@@ -4,6 +4,7 @@
 #include <random>
 
 #include "geometry/geometry_method.h"
+#include "support/array_sets.h"
 
 namespace bspc::test {
 
@@ -36,7 +37,7 @@ std::vector<GoldenFile> goldenFiles() {
     const std::string name = methodName(method);
     const auto add = [&](const std::string& what, std::vector<double> xyz, ScalarType type,
                          Layout layout, unsigned layers, const GridRequest& grid) {
-      GoldenFile file{std::string(name).append("_").append(what), std::move(xyz), type, {}};
+      GoldenFile file{std::string(name).append("_").append(what), std::move(xyz), type, {}, {}};
       file.options.method = method;
       file.options.layout = layout;
       file.options.layers = layers;
@@ -58,23 +59,23 @@ std::vector<GoldenFile> goldenFiles() {
   return files;
 }
 
-Bytes encodeGolden(const GoldenFile& file, std::vector<double>* decodedOrder) {
+Bytes encodeGolden(const GoldenFile& file, DecodedOrder* decoded) {
   EncodeOptions options = file.options;
   options.wantOrder = true;
   MemorySink sink;
   EncodeReport report;
   const std::size_t count = file.xyz.size() / 3;
-  if (file.type == ScalarType::Float32) {
-    const std::vector<float> narrow(file.xyz.begin(), file.xyz.end());
-    report = encode(PointSetView(narrow.data(), count), sink, options);
-  } else {
-    report = encode(PointSetView(file.xyz.data(), count), sink, options);
-  }
-  if (decodedOrder != nullptr) {
-    decodedOrder->clear();
-    for (const std::uint64_t i : report.order) {
-      for (std::size_t k = 0; k < 3; ++k) decodedOrder->push_back(file.xyz[3 * i + k]);
-    }
+  const std::vector<float> narrow(file.xyz.begin(), file.xyz.end());
+  PointSetView points = file.type == ScalarType::Float32 ? PointSetView(narrow.data(), count)
+                                                         : PointSetView(file.xyz.data(), count);
+  for (const ArrayValues& array : file.arrays) points.addArray(array.view());
+  report = encode(points, sink, options);
+  if (decoded == nullptr) return sink.take();
+  for (const std::uint64_t i : report.order) {
+    for (std::size_t k = 0; k < 3; ++k) decoded->xyz.push_back(file.xyz[3 * i + k]);
+    std::string tuples;
+    for (const ArrayValues& array : file.arrays) tuples += tupleOf(array, i);
+    decoded->tuples.push_back(std::move(tuples));
   }
   return sink.take();
 }

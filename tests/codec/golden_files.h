@@ -13,11 +13,18 @@ struct GoldenFile {
   std::vector<double> xyz;
   ScalarType type = ScalarType::Float64;
   EncodeOptions options;
+  std::vector<ArrayValues> arrays;  ///< in the order of the points
 };
 
 std::vector<GoldenFile> goldenFiles();
 
-/// The bytes that this build's encoder makes of it, and the points in the order of the decoder.
-Bytes encodeGolden(const GoldenFile& file, std::vector<double>* decodedOrder);
+/// What a decoder gives back.
+struct DecodedOrder {
+  std::vector<double> xyz;
+  std::vector<std::string> tuples;  ///< of all arrays together, one a point
+};
+
+/// The bytes that this build's encoder makes of it, and its points in the order of the decoder.
+Bytes encodeGolden(const GoldenFile& file, DecodedOrder* decoded);
 
 }  // namespace bspc::test

@@ -8,6 +8,7 @@
 
 #include "codec/codec_support.h"
 #include "codec/golden_files.h"
+#include "support/array_sets.h"
 
 namespace bspc {
 namespace {
@@ -23,19 +24,27 @@ class Golden : public testing::TestWithParam<test::GoldenFile> {};
 TEST_P(Golden, DecodesToTheFixedPoints) {
   const test::GoldenFile& file = GetParam();
   const Bytes bytes = readFile(BSPC_TEST_DATA "/golden/" + file.name + ".bspc");
-  std::vector<double> wanted;
+  test::DecodedOrder wanted;
   test::encodeGolden(file, &wanted);
   Decoder decoder = test::open(bytes);
   const DecodedPoints decoded = decoder.decode();
   std::vector<double> back(3 * decoded.points.size());
   restorePositions(decoder.info().grid, Span<const GridPoint>(decoded.points), back.data());
-  ASSERT_EQ(back.size(), wanted.size());
+  ASSERT_EQ(back.size(), wanted.xyz.size());
   // All of them lie on lattices but the quantised one, which has 9 bits over an extent of 124.
   const double allowed = file.options.grid.kind == GridRequest::Kind::Bits ? 0.13 : 0;
-  for (std::size_t i = 0; i < back.size(); ++i) ASSERT_NEAR(back[i], wanted[i], allowed);
+  for (std::size_t i = 0; i < back.size(); ++i) ASSERT_NEAR(back[i], wanted.xyz[i], allowed);
+  ASSERT_EQ(decoded.arrays.size(), file.arrays.size());
+  for (std::size_t i = 0; i < decoded.points.size(); ++i) {
+    std::string tuples;
+    for (const ArrayValues& array : decoded.arrays) tuples += test::tupleOf(array, i);
+    ASSERT_EQ(tuples, wanted.tuples[i]);
+  }
 }
 
 TEST_P(Golden, IsWrittenByteForByte) {
+  // Versions of zstd, which codes some values, need not write the same bytes.
+  if (!GetParam().arrays.empty()) return;
   const Bytes bytes = readFile(BSPC_TEST_DATA "/golden/" + GetParam().name + ".bspc");
   EXPECT_EQ(test::encodeGolden(GetParam(), nullptr), bytes);
 }

@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
+#include <string>
 
 #include "bspc/error.h"
 #include "codec/codec_support.h"
+#include "support/array_sets.h"
 #include "support/point_sets.h"
 
 namespace bspc {
@@ -141,6 +144,108 @@ TEST(Join, ExtentsBeyondTheGridAreRefused) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::OutOfGrid);
   }
+}
+
+/// A few points on whole numbers with arrays and metadata.
+Bytes withArrays(const std::vector<ArrayValues>& arrays, EncodeOptions options = {}) {
+  std::vector<std::int32_t> xyz;
+  const std::size_t count = static_cast<std::size_t>(arrays.at(0).tuples());
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto v = static_cast<std::int32_t>(i);
+    xyz.insert(xyz.end(), {v % 7, v % 31, v});
+  }
+  PointSetView view(xyz.data(), count);
+  for (const ArrayValues& array : arrays) view.addArray(array.view());
+  options.grid = GridRequest::withPrecision(1);
+  return test::encoded(view, options);
+}
+
+/// Tuples of the arrays by name, of every point, sorted.
+std::vector<std::string> sortedTuples(const Bytes& file) {
+  const DecodedPoints decoded = test::open(file).decode();
+  std::map<std::string, const ArrayValues*> byName;
+  for (const ArrayValues& array : decoded.arrays) byName[array.name] = &array;
+  std::vector<std::string> tuples;
+  for (std::size_t i = 0; i < decoded.points.size(); ++i) {
+    std::string tuple;
+    for (const auto& [name, array] : byName) tuple += test::tupleOf(*array, i);
+    tuples.push_back(std::move(tuple));
+  }
+  std::sort(tuples.begin(), tuples.end());
+  return tuples;
+}
+
+std::string joinError(const std::vector<Bytes>& files) {
+  try {
+    joined(files, Layout::Progressive);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::InvalidArgument);
+    return error.what();
+  }
+  ADD_FAILURE() << "the files were joined";
+  return {};
+}
+
+TEST(Join, BringsArraysTogetherByName) {
+  const auto colour = [](std::uint64_t seed) {
+    return test::randomArray("colour", ScalarType::UInt8, 3, 500, seed);
+  };
+  const auto time = [](std::uint64_t seed) {
+    return test::randomArray("time", ScalarType::Float64, 1, 500, seed);
+  };
+  EncodeOptions layered;
+  layered.layers = 3;
+  layered.tilePoints = 200;
+  EncodeOptions ordered;
+  ordered.keepOrder = true;
+  ordered.method = Method::Kd;
+  ordered.layout = Layout::Streaming;
+  const Bytes a = withArrays({colour(1), time(2)}, layered);
+  const Bytes b = withArrays({time(3), colour(4)}, ordered);
+  std::vector<std::string> expected = sortedTuples(a);
+  for (const std::string& tuple : sortedTuples(b)) expected.push_back(tuple);
+  std::sort(expected.begin(), expected.end());
+  for (const Layout layout : {Layout::Progressive, Layout::Streaming}) {
+    const Bytes both = joined({a, b}, layout);
+    EXPECT_EQ(sortedTuples(both), expected);
+    EXPECT_FALSE(test::open(both).info().keepsOrder);
+    EXPECT_EQ(test::open(both).info().arrays[0].firstLevel, 2U);
+  }
+  const Bytes twice = joined({b, b}, Layout::Progressive);
+  EXPECT_TRUE(test::open(twice).info().keepsOrder);
+  const DecodedPoints decoded = test::open(twice).decode();
+  for (std::size_t i = 0; i < 1000; ++i) ASSERT_EQ(decoded.points[i][2], i % 500);
+}
+
+TEST(Join, NamesTheArrayThatIsMissingOrOther) {
+  const ArrayValues colour = test::randomArray("colour", ScalarType::UInt8, 3, 50, 1);
+  const ArrayValues time = test::randomArray("time", ScalarType::Float64, 1, 50, 1);
+  const ArrayValues floats = test::randomArray("time", ScalarType::Float32, 1, 50, 1);
+  const Bytes both = withArrays({colour, time});
+  EXPECT_NE(joinError({both, withArrays({colour})}).find("\"time\""), std::string::npos);
+  EXPECT_NE(joinError({withArrays({colour}), both}).find("\"time\""), std::string::npos);
+  EXPECT_NE(joinError({both, withArrays({colour, floats})}).find("1 x float32"), std::string::npos);
+}
+
+TEST(Join, BringsMetadataTogether) {
+  const ArrayValues array = test::randomArray("a", ScalarType::UInt8, 1, 20, 1);
+  EncodeOptions one;
+  one.metadata.crs = "EPSG:25832";
+  one.metadata.entries = {{"title", "north"}, {"source", "scan"}};
+  EncodeOptions two;
+  two.metadata.lengthUnit = "m";
+  two.metadata.entries = {{"title", "south"}, {"date", "2026"}, {"source", "scan"}};
+  JoinReport report;
+  const Bytes file =
+      joined({withArrays({array}, one), withArrays({array}, two)}, Layout::Progressive, &report);
+  const Metadata metadata = test::open(file).info().metadata;
+  EXPECT_EQ(metadata.crs, "EPSG:25832");
+  EXPECT_EQ(metadata.lengthUnit, "m");
+  EXPECT_EQ(metadata.entries.size(), 3U);
+  EXPECT_EQ(report.droppedMetadata, std::vector<std::string>{"file 1: title"});
+  two.metadata.crs = "EPSG:4326";
+  EXPECT_NE(joinError({withArrays({array}, one), withArrays({array}, two)}).find("EPSG:4326"),
+            std::string::npos);
 }
 
 }  // namespace

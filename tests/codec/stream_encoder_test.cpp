@@ -8,6 +8,7 @@
 
 #include "bspc/error.h"
 #include "codec/codec_support.h"
+#include "support/array_sets.h"
 #include "support/point_sets.h"
 
 namespace bspc {
@@ -16,17 +17,33 @@ namespace {
 template <class T>
 class VectorReader final : public PointReader {
  public:
-  VectorReader(ScalarType type, std::vector<T> xyz) : type_(type), xyz_(std::move(xyz)) {}
+  VectorReader(ScalarType type, std::vector<T> xyz, std::vector<ArrayValues> values = {})
+      : values_(std::move(values)), type_(type), xyz_(std::move(xyz)) {
+    for (const ArrayValues& array : values_) descriptions_.push_back(array);
+  }
   ScalarType type() const override { return type_; }
-  std::size_t read(std::uint8_t* xyz, Span<ArrayValues> /*values*/, std::size_t count) override {
+  const std::vector<ArrayDescription>& arrays() const override { return descriptions_; }
+  std::size_t read(std::uint8_t* xyz, Span<ArrayValues> values, std::size_t count) override {
     // Pieces of odd sizes, as a pipe gives them.
     count = std::min({count, std::size_t{10007}, (xyz_.size() - at_) / 3});
     if (count > 0) std::memcpy(xyz, xyz_.data() + at_, 3 * count * sizeof(T));
+    for (std::size_t i = at_ / 3; i < at_ / 3 + count; ++i) {
+      for (std::size_t a = 0; a < values.size(); ++a) {
+        if (values_[a].type == ScalarType::String) {
+          values[a].strings.push_back(values_[a].strings[i]);
+        } else {
+          const std::string tuple = test::tupleOf(values_[a], i);
+          values[a].values.insert(values[a].values.end(), tuple.begin(), tuple.end());
+        }
+      }
+    }
     at_ += 3 * count;
     return count;
   }
 
  private:
+  std::vector<ArrayValues> values_;
+  std::vector<ArrayDescription> descriptions_;
   ScalarType type_;
   std::vector<T> xyz_;
   std::size_t at_ = 0;
@@ -63,8 +80,9 @@ class Streaming : public testing::Test {
     return options;
   }
   template <class T>
-  Bytes encodedStream(ScalarType type, const std::vector<T>& xyz, const StreamOptions& options) {
-    VectorReader<T> reader(type, xyz);
+  Bytes encodedStream(ScalarType type, const std::vector<T>& xyz, const StreamOptions& options,
+                      const std::vector<ArrayValues>& values = {}) {
+    VectorReader<T> reader(type, xyz, values);
     MemorySink sink;
     report_ = encodeStream(reader, sink, options);
     return sink.take();
@@ -106,6 +124,96 @@ TEST_F(Streaming, ALargeSetComesBackExactly) {
   EXPECT_TRUE(test::open(file).info().streaming);
   EXPECT_EQ(test::open(file).info().tiles.size(), report_.tiles);
   EXPECT_EQ(sortedPoints(decodedNumbers<double>(file)), sortedPoints(xyz));
+}
+
+/// Bytes of a point's coordinates with those of its tuples, point by point.
+std::vector<std::string> rowsOf(const std::vector<double>& xyz,
+                                const std::vector<ArrayValues>& arrays) {
+  std::vector<std::string> rows;
+  for (std::size_t i = 0; i < xyz.size() / 3; ++i) {
+    std::string row(reinterpret_cast<const char*>(&xyz[3 * i]), 3 * sizeof(double));
+    for (const ArrayValues& array : arrays) row += test::tupleOf(array, i);
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+std::vector<std::string> decodedRows(const Bytes& file) {
+  Decoder decoder = test::open(file);
+  const DecodedPoints decoded = decoder.decode();
+  std::vector<double> xyz(3 * decoded.points.size());
+  restorePositions(decoder.info().grid, decoded, xyz.data());
+  return rowsOf(xyz, decoded.arrays);
+}
+
+std::vector<ArrayValues> someArrays(std::size_t count) {
+  return {test::randomArray("colour", ScalarType::UInt8, 3, count, 1),
+          test::randomArray("time", ScalarType::Float64, 1, count, 2),
+          test::randomArray("edge", ScalarType::Bit, 1, count, 3)};
+}
+
+TEST_F(Streaming, ArraysComeBackWithTheirPoints) {
+  const std::vector<double> xyz = centimetres(kMany);
+  const std::vector<ArrayValues> arrays = someArrays(kMany);
+  StreamOptions wishes = options();
+  wishes.encoding.method = Method::Fast;
+  const Bytes file = encodedStream(ScalarType::Float64, xyz, wishes, arrays);
+  EXPECT_GE(scratchBytes_, kMany * (24 + 12 + 2 * 12));
+  std::vector<std::string> expected = rowsOf(xyz, arrays);
+  std::vector<std::string> decoded = decodedRows(file);
+  std::sort(expected.begin(), expected.end());
+  std::sort(decoded.begin(), decoded.end());
+  EXPECT_TRUE(decoded == expected);
+  ASSERT_EQ(report_.arrays.size(), 3U);
+  EXPECT_EQ(report_.arrays[1].name, "time");
+  EXPECT_GT(report_.arrays[1].bytes, kMany);
+}
+
+TEST_F(Streaming, TheOrderIsKeptWithIdsAndExactFloats) {
+  std::vector<double> xyz = centimetres(kMany);
+  for (std::size_t i = 0; i < xyz.size(); i += 7) xyz[i] = -xyz[i] / 3;
+  xyz[5] = -0.0;
+  xyz[3000] = std::numeric_limits<double>::quiet_NaN();
+  std::vector<ArrayValues> arrays = someArrays(kMany);
+  StreamOptions wishes = options();
+  wishes.encoding.method = Method::Fast;
+  wishes.encoding.keepOrder = true;
+  wishes.encoding.originalIds = true;
+  wishes.encoding.grid = GridRequest::exactFloats();
+  wishes.encoding.grid.dropNonFinite = true;
+  wishes.encoding.metadata.crs = "EPSG:25832";
+  const Bytes file = encodedStream(ScalarType::Float64, xyz, wishes, arrays);
+  EXPECT_EQ(report_.grid.form, Grid::Form::FloatBits);
+  EXPECT_EQ(report_.dropped, 1U);
+  EXPECT_EQ(test::open(file).info().metadata.crs, "EPSG:25832");
+  ArrayValues ids;
+  ids.type = ScalarType::UInt64;
+  for (std::uint64_t i = 0; i < kMany; ++i) {
+    for (unsigned b = 0; b < 8; ++b) ids.values.push_back(static_cast<std::uint8_t>(i >> (8 * b)));
+  }
+  arrays.push_back(ids);
+  std::vector<std::string> expected = rowsOf(xyz, arrays);
+  expected.erase(expected.begin() + 1000);
+  EXPECT_TRUE(decodedRows(file) == expected);
+}
+
+TEST_F(Streaming, StringsNeedASetThatFitsIntoMemory) {
+  const std::vector<double> few = centimetres(500);
+  std::vector<ArrayValues> arrays{test::randomArray("s", ScalarType::String, 1, 500, 4)};
+  std::vector<std::string> expected = rowsOf(few, arrays);
+  std::vector<std::string> decoded =
+      decodedRows(encodedStream(ScalarType::Float64, few, options(), arrays));
+  std::sort(expected.begin(), expected.end());
+  std::sort(decoded.begin(), decoded.end());
+  EXPECT_EQ(decoded, expected);
+  arrays = {test::randomArray("s", ScalarType::String, 1, kMany, 4)};
+  try {
+    encodedStream(ScalarType::Float64, centimetres(kMany), options(), arrays);
+    FAIL() << "strings were streamed";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::Unsupported);
+    EXPECT_NE(std::string(error.what()).find("\"s\""), std::string::npos);
+  }
 }
 
 TEST_F(Streaming, TheGridIsThatOfTheSetInMemory) {

@@ -52,8 +52,8 @@ TEST(Lanes, DoEachWhatOneNumberDoes) {
   const Lanes bells = bell(lanes - 25.0F);
   float all[kLanes];
   for (unsigned i = 0; i < kLanes; ++i) {
-    EXPECT_EQ(logs[i], naturalLog(values[i]));
-    EXPECT_EQ(bells[i], bell(values[i] - 25.0F));
+    EXPECT_EQ(valuesOf(logs)[i], naturalLog(values[i]));
+    EXPECT_EQ(valuesOf(bells)[i], bell(values[i] - 25.0F));
     all[i] = values[i];
   }
   EXPECT_EQ(sum(lanes),

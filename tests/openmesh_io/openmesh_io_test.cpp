@@ -340,9 +340,9 @@ TEST(OpenMeshIo, RestoresRealModels) {
       std::filesystem::path(BSPC_SOURCE_DIR) / "build" / "demo" / "data" / "meshes";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "scripts/models.sh fetches the models";
   for (const char* name :
-       {"anchor", "bull", "cactus", "cow", "cube_quad", "dino", "elephant", "elk", "fandisk",
-        "femur", "hand", "handle", "head", "homer", "joint", "knot1", "mushroom", "pinion", "rotor",
-        "triceratops"}) {
+       {"anchor", "bull",    "cactus",   "cow",    "cube_quad", "dino",       "elephant",
+        "elk",    "fandisk", "femur",    "hand",   "handle",    "head",       "homer",
+        "joint",  "knot1",   "mushroom", "pinion", "rotor",     "triceratops"}) {
     SCOPED_TRACE(name);
     PolyMesh mesh;
     ASSERT_TRUE(OpenMesh::IO::read_mesh(mesh, (folder / (std::string(name) + ".off")).string()));

@@ -68,6 +68,18 @@ GridRequest gridRequest(const EncodeArguments& args) {
   return request;
 }
 
+void checkEffort(const EncodeArguments& args) {
+  if (!args.effort || args.method.empty()) return;
+  const bool fast = args.method == methodName(Method::Fast);
+  if (!fast && args.method != methodName(Method::Predictive)) {
+    throw UsageError("method " + args.method + " has no --effort; leave one of the two out");
+  }
+  if (fast != (*args.effort <= 4)) {
+    throw UsageError("--effort " + std::to_string(*args.effort) + " is not one of method " +
+                     args.method + ": 1 to 4 are method fast, 5 to 9 method predictive");
+  }
+}
+
 EncodeOptions encodeOptions(const EncodeArguments& args) {
   if (args.keepOrder && args.anyOrder) {
     throw UsageError("--keep-order and --any-order exclude each other");
@@ -75,9 +87,7 @@ EncodeOptions encodeOptions(const EncodeArguments& args) {
   EncodeOptions options;
   options.grid = gridRequest(args);
   options.effort = args.effort;
-  if (args.effort && !args.method.empty() && args.method != methodName(Method::Fast)) {
-    throw UsageError("method " + args.method + " has no --effort; leave one of the two out");
-  }
+  checkEffort(args);
   options.layers = args.layers;
   options.tilePoints = args.tilePoints;
   options.threads = args.threads;
@@ -282,9 +292,10 @@ void addEncodeCommand(CLI::App& app) {
       ->group("Coding");
   command
       ->add_option("--effort", args->effort,
-                   "1 (quickest) to 4 (smallest), default 2, of method fast, the default method")
+                   "1 (quickest) to 9 (smallest), default 2; 1 to 4 are method fast, 5 to 9 method "
+                   "predictive")
       ->option_text("N")
-      ->check(CLI::Range(1U, 4U))
+      ->check(CLI::Range(1U, 9U))
       ->group("Coding");
   command->add_option("--layers", args->layers, "Layers of detail, 1 to 32 (default: by size)")
       ->option_text("N")

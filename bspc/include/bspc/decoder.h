@@ -131,6 +131,9 @@ struct DecodeOptions {
 /// Decoded points, in the coder's order, or in that of the input where the file keeps it.
 struct DecodedPoints {
   std::vector<GridPoint> points;
+  /// The lower 32 bits of exact float64 coordinates (Grid::Form::FloatBits), one a point; empty for
+  /// other grids, and at levels without values of arrays.
+  std::vector<GridPoint> lowHalves;
   /// The chosen arrays in the order of FileInfo::arrays, one tuple a point; at a level without
   /// values (ArrayInfo::firstLevel) an array is left out.
   std::vector<ArrayValues> arrays;
@@ -143,6 +146,13 @@ struct DecodedPoints {
   unsigned level = 0;                   ///< the finest layer that was used
   bool complete = true;                 ///< every point of the original is there
 };
+
+/// restorePositions() with all that was decoded, exact floats among it.
+template <class T>
+void restorePositions(const Grid& grid, const DecodedPoints& points, T* xyz) {
+  restorePositions(grid, Span<const GridPoint>(points.points),
+                   Span<const GridPoint>(points.lowHalves), xyz);
+}
 
 /// An open .bspc file: reads head and index at once, the rest on demand.
 class Decoder {

@@ -16,12 +16,15 @@ using GridPoint = std::array<std::uint32_t, 3>;
 
 /// The integer lattice that a file's coordinates live on (docs/format.md, "Grid").
 ///
-/// An axis turns the index i (0 ≤ i < 2^32) into a coordinate in exactly one of two ways, computed
-/// in IEEE double precision in the order written:
-///   Rational: (double(base + i) * double(numerator)) / double(denominator)
-///   Affine:   origin + double(base + i) * step
+/// An axis turns the index i (0 ≤ i < 2^32) into a coordinate in exactly one of three ways, the
+/// first two computed in IEEE double precision in the order written:
+///   Rational:  (double(base + i) * double(numerator)) / double(denominator)
+///   Affine:    origin + double(base + i) * step
+///   FloatBits: the floating-point number whose place among all of its type is base + i, for
+///              float64 that of its upper half; low halves then stand beside the grid points
+///              (DecodedPoints::lowHalves). Keeps every bit, the sign of zero among them.
 struct Grid {
-  enum class Form : std::uint8_t { Rational = 0, Affine = 1 };
+  enum class Form : std::uint8_t { Rational = 0, Affine = 1, FloatBits = 2 };
 
   struct Axis {
     std::int64_t base = 0;         ///< |base| ≤ 2^62
@@ -41,7 +44,8 @@ struct Grid {
   double coordinate(int axis, std::uint32_t i) const;
   /// The same for any multiple of the step: `k` counts from zero, not from the base.
   double coordinateOfMultiple(int axis, std::int64_t k) const;
-  /// The distance of two neighbouring indices, in the units of the data.
+  /// The distance of two neighbouring indices, in the units of the data; 0 for FloatBits, where it
+  /// differs from place to place.
   double step(int axis) const;
   /// Whether both put points at the same places, whatever their bases and scalar types.
   bool sameLattice(const Grid& other) const;
@@ -61,6 +65,8 @@ struct GridRequest {
     Precision,
     /// The lattice of `reuse`, its base moved where points lie below it.
     Reuse,
+    /// Bit for bit: a lattice if the coordinates lie on one and none is −0, else FloatBits.
+    ExactFloats,
   };
   Kind kind = Kind::Automatic;
   unsigned bits = 0;     ///< 1 … 32
@@ -79,6 +85,7 @@ struct GridRequest {
   static GridRequest withBits(unsigned bits);
   static GridRequest withPrecision(double precision);
   static GridRequest onGrid(const Grid& grid);
+  static GridRequest exactFloats();
 };
 
 /// A point set on its grid.
@@ -102,12 +109,17 @@ struct GridFit {
 GridFit fitGrid(const PointSetView& points, const GridRequest& request,
                 const ProgressCallback& progress = {});
 
-/// The coordinate that a reader returns: grid.coordinate rounded to grid.scalarType, as a double.
+/// The coordinate that a reader returns: grid.coordinate rounded to grid.scalarType, as a double;
+/// for FloatBits of float64 the least of those that share the index.
 double restoredCoordinate(const Grid& grid, int axis, std::uint32_t i);
 
 /// Writes positions as packed x, y, z triples of T (float, double or an integer type), `points`
 /// in, 3 × points.size() numbers out. Integer types are rounded to nearest and clamped to T.
 template <class T>
 void restorePositions(const Grid& grid, Span<const GridPoint> points, T* xyz);
+/// The same with low halves, as many as points or none.
+template <class T>
+void restorePositions(const Grid& grid, Span<const GridPoint> points,
+                      Span<const GridPoint> lowHalves, T* xyz);
 
 }  // namespace bspc

@@ -40,8 +40,9 @@ struct StreamOptions {
   /// The encoder's own memory, in bytes, is about this at most; at least 32 MiB are taken. A set
   /// that fits is coded as by encode().
   std::uint64_t memoryBytes = std::uint64_t{1} << 30;
-  /// Makes storage for larger sets, which need their size in grid points and coordinates together;
-  /// without it they are Error(LimitExceeded).
+  /// Makes storage for larger sets, which need their size in grid points, coordinates and twice
+  /// their arrays together; without it they are Error(LimitExceeded), and with arrays of strings
+  /// Error(Unsupported).
   ScratchFactory scratch;
 };
 

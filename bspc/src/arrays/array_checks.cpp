@@ -32,8 +32,8 @@ class UniqueNames {
 void checkView(const ArrayView& array, std::uint64_t points, const char* owner) {
   checkDescription(array);
   if (array.tuples != points) {
-    refuse(array, "has " + std::to_string(array.tuples) + " tuples for " + std::to_string(points) + " " +
-                      owner + "s; give one tuple a " + owner);
+    refuse(array, "has " + std::to_string(array.tuples) + " tuples for " + std::to_string(points) +
+                      " " + owner + "s; give one tuple a " + owner);
   }
   const std::size_t packed = array.components * arrayValueSize(array.type);
   if (array.strideBytes != 0 && array.strideBytes < packed) {
@@ -84,6 +84,15 @@ void checkCellArrays(Span<const ArrayView> arrays, std::uint64_t cells) {
     checkView(array, cells, "cell");
     names.add(array);
   }
+}
+
+void checkDescriptions(const std::vector<ArrayDescription>& arrays, const EncodeOptions& options) {
+  UniqueNames names;
+  for (const ArrayDescription& array : arrays) {
+    checkDescription(array);
+    names.add(array);
+  }
+  if (options.originalIds) names.add(originalIdsDescription());
 }
 
 void checkMetadata(const Metadata& metadata) {

@@ -11,6 +11,9 @@ void checkDescription(const ArrayDescription& array);
 /// Likewise for the arrays of a set of `points` points, and for what the options add.
 void checkArrays(Span<const ArrayView> arrays, std::uint64_t points, const EncodeOptions& options);
 
+/// Likewise for arrays whose values are still to come.
+void checkDescriptions(const std::vector<ArrayDescription>& arrays, const EncodeOptions& options);
+
 /// Likewise for the arrays of so many cells of a mesh.
 void checkCellArrays(Span<const ArrayView> arrays, std::uint64_t cells);
 

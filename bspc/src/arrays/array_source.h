@@ -17,10 +17,11 @@ ArrayDescription originalIdsDescription();
 class ArraySource {
  public:
   ArraySource() = default;
-  /// `arrays` must outlive this.
-  ArraySource(Span<const ArrayView> arrays, bool originalIds)
-      : arrays_(arrays), originalIds_(originalIds) {}
+  /// `arrays` must outlive this; the first `hidden` of them are no arrays to the users of a file.
+  ArraySource(Span<const ArrayView> arrays, std::size_t hidden, bool originalIds)
+      : arrays_(arrays), hidden_(hidden), originalIds_(originalIds) {}
 
+  std::size_t hidden() const { return hidden_; }
   std::size_t size() const { return arrays_.size() + (originalIds_ ? 1 : 0); }
   ArrayDescription description(std::size_t array) const;
   attributes::ArrayShape shape(std::size_t array) const;
@@ -30,6 +31,7 @@ class ArraySource {
 
  private:
   Span<const ArrayView> arrays_;
+  std::size_t hidden_ = 0;
   bool originalIds_ = false;
 };
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "arrays/array_tuples.h"
+#include "arrays/array_wishes.h"
 #include "attributes/array_coder.h"
 #include "attributes/order_coder.h"
 #include "attributes/tile_points.h"
@@ -76,14 +77,6 @@ class LayeredTile {
   std::vector<std::size_t> ends_;
 };
 
-attributes::ArrayWishes wishesFor(const ArrayDescription& array, unsigned effort) {
-  attributes::ArrayWishes wishes;
-  wishes.effort = effort;
-  const bool normals = array.semantic == Semantic::Normals && array.components == 3;
-  (normals ? wishes.maxAngle : wishes.maxError) = array.tolerance;
-  return wishes;
-}
-
 /// An array on its way through the layers.
 struct ArrayInWork {
   attributes::ArrayShape shape;
@@ -99,9 +92,8 @@ CodedTileArrays TileArrayEncoder::encode(const TileWithArrays& tile) const {
   result.layered = tile.geometry.nestsPoints;
   if (isIdentity(tile.geometry.order)) {
     result.order = container::TileOrder::Decoded;
-  } else if (keepsOrder_) {
+  } else if (keepsOrder_ || storesOrder_) {
     result.order = container::TileOrder::Stored;
-    result.orderPayload = attributes::encodeOrder(tile.points, tile.geometry.order);
   }
   const LayeredTile layered(tile);
   std::vector<ArrayInWork> work(source_.size());
@@ -129,6 +121,15 @@ CodedTileArrays TileArrayEncoder::encode(const TileWithArrays& tile) const {
       result.arrays[a].needsOrder = points.hasInputOrder() && coded.usesInputOrder;
       result.payloads[a].push_back(std::move(coded.payload));
       result.greatestErrors[a] = std::max(result.greatestErrors[a], coded.greatestError);
+    }
+  }
+  const bool needed = keepsOrder_ || std::any_of(result.arrays.begin(), result.arrays.end(),
+                                                 [](const auto& a) { return a.needsOrder; });
+  if (result.order == container::TileOrder::Stored) {
+    if (needed) {
+      result.orderPayload = attributes::encodeOrder(tile.points, tile.geometry.order);
+    } else {
+      result.order = container::TileOrder::Unknown;
     }
   }
   for (std::size_t a = 0; a < work.size(); ++a) {

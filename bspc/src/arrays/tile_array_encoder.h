@@ -34,6 +34,10 @@ class TileArrayEncoder {
       : source_(source), effort_(effort), keepsOrder_(keepsOrder) {}
 
   const ArraySource& source() const { return source_; }
+  unsigned effort() const { return effort_; }
+  bool keepsOrder() const { return keepsOrder_; }
+  /// The order is stored where an array needs it, even if the file does not promise it.
+  void storeOrder(bool store) { storesOrder_ = store; }
   bool hasWork() const { return keepsOrder_ || source_.size() > 0; }
   CodedTileArrays encode(const TileWithArrays& tile) const;
 
@@ -41,6 +45,7 @@ class TileArrayEncoder {
   ArraySource source_;
   unsigned effort_;
   bool keepsOrder_;
+  bool storesOrder_ = false;
 };
 
 }  // namespace bspc

@@ -37,8 +37,8 @@ struct Block {
   std::uint64_t end = 0;            ///< offset of what follows
 };
 
-/// Where a block stands, from its first bytes alone. Throws Error(Truncated) if the file ends inside
-/// the block.
+/// Where a block stands, from its first bytes alone. Throws Error(Truncated) if the file ends
+/// inside the block.
 struct BlockFrame {
   unsigned type = 0;
   std::uint64_t contentOffset = 0;

@@ -255,7 +255,10 @@ std::string ContainerReader::chunkName(std::size_t tile, std::size_t column) con
       "layer " + std::to_string(layout_.layerOf(column)) + " of tile " + std::to_string(tile);
   if (part == kGeometryPart) return of;
   if (part == kOrderPart) return "the order of the points of tile " + std::to_string(tile);
-  return "array " + std::to_string(part - kFirstArrayPart) + " in " + of;
+  const std::size_t array = part - kFirstArrayPart;
+  const std::size_t hidden = head_.hiddenArrays();
+  if (array < hidden) return "low halves of positions in " + of;
+  return "the array \"" + head_.arrays[array - hidden].name + "\" in " + of;
 }
 
 std::uint64_t ContainerReader::bytesOfRecord(std::size_t tile) const {

@@ -7,6 +7,7 @@
 #include "container/array_table.h"
 #include "container/grid_record.h"
 #include "container/metadata_record.h"
+#include "grid/float_grid.h"
 
 namespace bspc::container {
 
@@ -91,10 +92,13 @@ void readRecords(ByteReader& in, const DecodeLimits& limits, FileHead& head) {
 
 }  // namespace
 
+std::size_t FileHead::hiddenArrays() const { return lattice::hasLowHalves(grid) ? 1 : 0; }
+
 TileLayout FileHead::layout() const {
   TileLayout layout;
   layout.layers = layers;
   layout.keepsOrder = keepsOrder;
+  if (hiddenArrays() > 0) layout.arrays.push_back({ScalarType::UInt32, 3, Semantic::None});
   for (const ArrayDescription& array : arrays) {
     layout.arrays.push_back({array.type, array.components, array.semantic});
   }

@@ -35,7 +35,10 @@ struct FileHead {
   MeshRecord mesh;
   std::vector<TileRecord> tiles;  ///< progressive layout only
 
+  /// Low halves of exact positions, if there are any, come before the named arrays.
   TileLayout layout() const;
+  /// Arrays of the layout that have no names.
+  std::size_t hiddenArrays() const;
 };
 
 /// The content of the head block.

@@ -139,7 +139,7 @@ void readAffine(ByteReader& in, Grid& grid, std::size_t steps) {
 }  // namespace
 
 void writeGrid(ByteWriter& out, const Grid& grid) {
-  const bool shared = equalSteps(grid);
+  const bool shared = grid.form != Grid::Form::FloatBits && equalSteps(grid);
   bool hasBase = false;
   for (const Grid::Axis& axis : grid.axes) hasBase = hasBase || axis.base != 0;
   out.u8(static_cast<unsigned>(grid.scalarType) | (static_cast<unsigned>(grid.form) << kFormShift) |
@@ -148,6 +148,7 @@ void writeGrid(ByteWriter& out, const Grid& grid) {
     for (const Grid::Axis& axis : grid.axes) out.signedVarint(axis.base);
   }
   const std::size_t steps = shared ? 1 : 3;
+  if (grid.form == Grid::Form::FloatBits) return;
   if (grid.form == Grid::Form::Affine) {
     writeAffine(out, grid, steps);
   } else {
@@ -159,7 +160,7 @@ Grid readGrid(ByteReader& in) {
   const unsigned kind = in.u8();
   const unsigned type = kind & kTypeMask;
   const unsigned form = (kind >> kFormShift) & 3;
-  if (type >= kPositionTypeCount || form > static_cast<unsigned>(Grid::Form::Affine)) {
+  if (type >= kPositionTypeCount || form > static_cast<unsigned>(Grid::Form::FloatBits)) {
     throw Error(ErrorCode::Unsupported, "the grid has scalar type " + std::to_string(type) +
                                             " and form " + std::to_string(form) +
                                             ", which this version does not know; use a newer one");
@@ -171,7 +172,9 @@ Grid readGrid(ByteReader& in) {
     for (Grid::Axis& axis : grid.axes) axis.base = in.signedVarint();
   }
   const std::size_t steps = (kind & kSharedStep) != 0 ? 1 : 3;
-  if (grid.form == Grid::Form::Affine) {
+  if (grid.form == Grid::Form::FloatBits) {
+    if ((kind & kSharedStep) != 0) in.fail("a grid of float bits with a step");
+  } else if (grid.form == Grid::Form::Affine) {
     readAffine(in, grid, steps);
   } else {
     for (std::size_t k = 0; k < steps; ++k) readRatio(in, grid.axes[k]);

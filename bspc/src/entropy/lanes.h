@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 
@@ -7,81 +9,193 @@
 #include <immintrin.h>
 #endif
 
-namespace bspc::entropy {
+/// Code that uses lanes can be compiled for more than one instruction set; each time it lives in an
+/// inline namespace of its own, so that linkers keep the versions apart.
+#if !defined(BSPC_LANE_SET)
+#define BSPC_LANE_SET portable
+#endif
 
-// Eight numbers at a time. Compilers make of it whatever vector instructions the machine has; each
-// lane is IEEE arithmetic of its own and sums over lanes have a written order, so the results are
-// the same everywhere.
+/// Lanes are passed in registers only where functions are truly inline.
+#define BSPC_LANES_INLINE inline __attribute__((always_inline))
+
+namespace bspc::entropy {
+inline namespace BSPC_LANE_SET {
+
+// Eight numbers at a time, in whatever vector registers there are. Each lane is IEEE arithmetic of
+// its own and sums over lanes have a written order, so the results are the same everywhere.
 
 constexpr std::size_t kLanes = 8;
 
-using Lanes = float __attribute__((vector_size(32)));
-/// Whole numbers, or masks: all bits of a lane are set where a comparison holds.
-using IntLanes = std::int32_t __attribute__((vector_size(32)));
+namespace lane_detail {
+
+#if defined(BSPC_LANES_AVX2)
+constexpr unsigned kRegisterBytes = 32;
+#else
+constexpr unsigned kRegisterBytes = 16;
+#endif
+constexpr unsigned kRegisters = 32 / kRegisterBytes;
+
+using FloatRegister = float __attribute__((vector_size(kRegisterBytes)));
+using IntRegister = std::int32_t __attribute__((vector_size(kRegisterBytes)));
+
+}  // namespace lane_detail
+
+/// Eight whole numbers, or a mask: all bits of a lane are set where a comparison holds.
+struct IntLanes {
+  lane_detail::IntRegister part[lane_detail::kRegisters] = {};
+
+  IntLanes() = default;
+  BSPC_LANES_INLINE IntLanes(std::int32_t x) {  // NOLINT: a number stands for eight of it
+    for (auto& p : part) p = x - lane_detail::IntRegister{};
+  }
+
+#define BSPC_LANES_OPERATOR(op)                                                                \
+  BSPC_LANES_INLINE friend IntLanes operator op(const IntLanes& a, const IntLanes& b) {        \
+    IntLanes r;                                                                                \
+    for (unsigned i = 0; i < lane_detail::kRegisters; ++i) r.part[i] = a.part[i] op b.part[i]; \
+    return r;                                                                                  \
+  }
+  BSPC_LANES_OPERATOR(&)
+  BSPC_LANES_OPERATOR(|)
+  BSPC_LANES_OPERATOR(-)
+#undef BSPC_LANES_OPERATOR
+  BSPC_LANES_INLINE friend IntLanes operator~(const IntLanes& a) {
+    IntLanes r;
+    for (unsigned i = 0; i < lane_detail::kRegisters; ++i) r.part[i] = ~a.part[i];
+    return r;
+  }
+  BSPC_LANES_INLINE friend IntLanes operator>>(const IntLanes& a, int shift) {
+    IntLanes r;
+    for (unsigned i = 0; i < lane_detail::kRegisters; ++i) r.part[i] = a.part[i] >> shift;
+    return r;
+  }
+  BSPC_LANES_INLINE IntLanes& operator|=(const IntLanes& b) { return *this = *this | b; }
+};
+
+struct Lanes {
+  lane_detail::FloatRegister part[lane_detail::kRegisters] = {};
+
+  Lanes() = default;
+  BSPC_LANES_INLINE Lanes(float x) {  // NOLINT: a number stands for eight of it
+    for (auto& p : part) p = x - lane_detail::FloatRegister{};
+  }
+
+#define BSPC_LANES_OPERATOR(op)                                                                \
+  BSPC_LANES_INLINE friend Lanes operator op(const Lanes& a, const Lanes& b) {                 \
+    Lanes r;                                                                                   \
+    for (unsigned i = 0; i < lane_detail::kRegisters; ++i) r.part[i] = a.part[i] op b.part[i]; \
+    return r;                                                                                  \
+  }
+  BSPC_LANES_OPERATOR(+)
+  BSPC_LANES_OPERATOR(-)
+  BSPC_LANES_OPERATOR(*)
+  BSPC_LANES_OPERATOR(/)
+#undef BSPC_LANES_OPERATOR
+#define BSPC_LANES_COMPARISON(op)                                                              \
+  BSPC_LANES_INLINE friend IntLanes operator op(const Lanes& a, const Lanes& b) {              \
+    IntLanes r;                                                                                \
+    for (unsigned i = 0; i < lane_detail::kRegisters; ++i) r.part[i] = a.part[i] op b.part[i]; \
+    return r;                                                                                  \
+  }
+  BSPC_LANES_COMPARISON(<)
+  BSPC_LANES_COMPARISON(<=)
+  BSPC_LANES_COMPARISON(>)
+  BSPC_LANES_COMPARISON(>=)
+#undef BSPC_LANES_COMPARISON
+  BSPC_LANES_INLINE Lanes& operator+=(const Lanes& b) { return *this = *this + b; }
+  BSPC_LANES_INLINE Lanes& operator-=(const Lanes& b) { return *this = *this - b; }
+};
 
 /// How many entries arrays of `count` values are padded to.
-constexpr std::size_t wholeLanes(std::size_t count) { return (count + kLanes - 1) & ~(kLanes - 1); }
+constexpr unsigned wholeLanes(std::size_t count) {
+  return static_cast<unsigned>((count + kLanes - 1) & ~(kLanes - 1));
+}
 
-inline Lanes load(const float* from) {
+BSPC_LANES_INLINE Lanes load(const float* from) {
   Lanes v;
-  std::memcpy(&v, from, sizeof v);
+  std::memcpy(v.part, from, sizeof v.part);
   return v;
 }
 
-inline void store(float* to, const Lanes& v) { std::memcpy(to, &v, sizeof v); }
+BSPC_LANES_INLINE void store(float* to, const Lanes& v) { std::memcpy(to, v.part, sizeof v.part); }
 
-inline Lanes allLanes(float x) { return Lanes{x, x, x, x, x, x, x, x}; }
+BSPC_LANES_INLINE std::array<float, kLanes> valuesOf(const Lanes& v) {
+  std::array<float, kLanes> values{};
+  store(values.data(), v);
+  return values;
+}
 
-inline IntLanes bitsOf(const Lanes& v) {
+BSPC_LANES_INLINE IntLanes bitsOf(const Lanes& v) {
   IntLanes bits;
-  std::memcpy(&bits, &v, sizeof bits);
+  std::memcpy(bits.part, v.part, sizeof v.part);
   return bits;
 }
 
-inline Lanes lanesOf(const IntLanes& bits) {
+BSPC_LANES_INLINE Lanes lanesOf(const IntLanes& bits) {
   Lanes v;
-  std::memcpy(&v, &bits, sizeof v);
+  std::memcpy(v.part, bits.part, sizeof v.part);
   return v;
 }
 
-inline Lanes magnitude(const Lanes& v) { return lanesOf(bitsOf(v) & 0x7FFFFFFF); }
+/// Whole numbers as floating point.
+BSPC_LANES_INLINE Lanes converted(const IntLanes& numbers) {
+  Lanes v;
+  for (unsigned i = 0; i < lane_detail::kRegisters; ++i) {
+    v.part[i] = __builtin_convertvector(numbers.part[i], lane_detail::FloatRegister);
+  }
+  return v;
+}
+
+BSPC_LANES_INLINE Lanes magnitude(const Lanes& v) {
+  return lanesOf(bitsOf(v) & IntLanes(0x7FFFFFFF));
+}
 
 /// `a` where the mask is set, `b` elsewhere.
-inline Lanes select(const IntLanes& mask, const Lanes& a, const Lanes& b) {
+BSPC_LANES_INLINE Lanes select(const IntLanes& mask, const Lanes& a, const Lanes& b) {
   return lanesOf((bitsOf(a) & mask) | (bitsOf(b) & ~mask));
 }
 
 /// `v` where the mask is set, 0 elsewhere.
-inline Lanes only(const IntLanes& mask, const Lanes& v) { return lanesOf(bitsOf(v) & mask); }
-
-inline Lanes smaller(const Lanes& a, const Lanes& b) { return select(a < b, a, b); }
-
-/// ((0 + 4) + (2 + 6)) + ((1 + 5) + (3 + 7))
-inline float sum(const Lanes& v) {
-  return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
+BSPC_LANES_INLINE Lanes only(const IntLanes& mask, const Lanes& v) {
+  return lanesOf(bitsOf(v) & mask);
 }
 
-inline float least(const Lanes& v) {
-  float best = v[0];
-  for (unsigned i = 1; i < kLanes; ++i) best = v[i] < best ? v[i] : best;
+BSPC_LANES_INLINE Lanes smaller(const Lanes& a, const Lanes& b) { return select(a < b, a, b); }
+
+/// ((0 + 4) + (2 + 6)) + ((1 + 5) + (3 + 7))
+BSPC_LANES_INLINE float sum(const Lanes& v) {
+  using Half = float __attribute__((vector_size(16)));
+  Half half[2];
+  std::memcpy(half, v.part, sizeof half);
+  const Half pairs = half[0] + half[1];
+  return (pairs[0] + pairs[2]) + (pairs[1] + pairs[3]);
+}
+
+BSPC_LANES_INLINE float least(const Lanes& v) {
+  const std::array<float, kLanes> values = valuesOf(v);
+  float best = values[0];
+  for (const float x : values) best = x < best ? x : best;
   return best;
 }
 
 /// Bit i is set where lane i of the mask is.
-inline std::uint32_t maskBits(const IntLanes& mask) {
-#if defined(__AVX__)
-  return static_cast<std::uint32_t>(
-      _mm256_movemask_ps(_mm256_castsi256_ps(reinterpret_cast<const __m256i&>(mask))));
+BSPC_LANES_INLINE std::uint32_t maskBits(const IntLanes& mask) {
+#if defined(BSPC_LANES_AVX2)
+  __m256 bits;
+  std::memcpy(&bits, mask.part, sizeof bits);
+  return static_cast<std::uint32_t>(_mm256_movemask_ps(bits));
 #elif defined(__SSE2__)
-  __m128i half[2];
-  std::memcpy(half, &mask, sizeof half);
-  return static_cast<std::uint32_t>(_mm_movemask_ps(_mm_castsi128_ps(half[0])) |
-                                    (_mm_movemask_ps(_mm_castsi128_ps(half[1])) << 4));
+  __m128 half[2];
+  std::memcpy(half, mask.part, sizeof half);
+  return static_cast<std::uint32_t>(_mm_movemask_ps(half[0]) | (_mm_movemask_ps(half[1]) << 4));
 #else
   std::uint32_t bits = 0;
-  for (unsigned i = 0; i < kLanes; ++i) bits |= (mask[i] != 0 ? 1U : 0U) << i;
+  std::int32_t lanes[kLanes];
+  std::memcpy(lanes, mask.part, sizeof lanes);
+  for (unsigned i = 0; i < kLanes; ++i) bits |= (lanes[i] != 0 ? 1U : 0U) << i;
   return bits;
 #endif
 }
 
+}  // namespace BSPC_LANE_SET
 }  // namespace bspc::entropy

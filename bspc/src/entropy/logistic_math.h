@@ -8,6 +8,12 @@
 
 namespace bspc::entropy {
 
+constexpr unsigned kStretchBits = 12;
+/// kStretch[i]: the logit ln(p / (1 − p)) of p = (i + ½) / 4096.
+extern const std::array<float, (1U << kStretchBits)> kStretch;
+
+inline namespace BSPC_LANE_SET {
+
 // Logarithm, power and the logistic function as polynomials: the same bits on every machine, which
 // those of the C library are not. Good to about 10^-3, which is finer than any model is right.
 
@@ -45,9 +51,9 @@ inline float naturalLog(float x) {
   return (exponent + log2) * 0.693147181F;
 }
 
-inline Lanes naturalLog(const Lanes& x) {
+BSPC_LANES_INLINE Lanes naturalLog(const Lanes& x) {
   const IntLanes bits = bitsOf(x);
-  const Lanes exponent = __builtin_convertvector((bits >> 23) - 127, Lanes);
+  const Lanes exponent = converted((bits >> 23) - 127);
   const Lanes m = lanesOf((bits & 0x7FFFFF) | 0x3F800000) - 1.0F;
   const Lanes log2 =
       m * (1.4426950F + m * (-0.7119F + m * (0.4396F + m * (-0.2325F + m * 0.0621F))));
@@ -70,10 +76,6 @@ inline int halfOctave(float x) { return static_cast<int>(bitsOf(x) >> 22) - 254;
 /// Probability whose logit is `x`: 1 / (1 + e^−x).
 inline float squash(float x) { return 1 / (1 + exp2(-x * 1.44269504F)); }
 
-constexpr unsigned kStretchBits = 12;
-/// kStretch[i]: the logit ln(p / (1 − p)) of p = (i + ½) / 4096.
-extern const std::array<float, (1U << kStretchBits)> kStretch;
-
 /// A bell's distribution function from −1 to 1 with heavy tails: ± (1 − 1 / (1 + |t| + t²)).
 inline float bell(float t) {
   const float a = magnitude(t) + t * t;
@@ -81,10 +83,11 @@ inline float bell(float t) {
   return floatOf(bitsOf(r) | (bitsOf(t) & 0x80000000U));
 }
 
-inline Lanes bell(const Lanes& t) {
+BSPC_LANES_INLINE Lanes bell(const Lanes& t) {
   const Lanes a = magnitude(t) + t * t;
   const Lanes r = a / (1.0F + a);
-  return lanesOf(bitsOf(r) | (bitsOf(t) & static_cast<std::int32_t>(0x80000000U)));
+  return lanesOf(bitsOf(r) | (bitsOf(t) & INT32_MIN));
 }
 
+}  // namespace BSPC_LANE_SET
 }  // namespace bspc::entropy

@@ -10,6 +10,7 @@
 #include "entropy/logistic_math.h"
 
 namespace bspc::entropy {
+inline namespace BSPC_LANE_SET {
 
 /// What is known about one binary decision: a number for each source, in the logistic domain
 /// (ln of the odds of a 1; 0 says nothing). Each position must keep its meaning from one decision
@@ -114,7 +115,7 @@ class LogisticMixer {
     const unsigned count = evidence.pad();
     std::array<float*, Selectors> weights{};
     for (unsigned i = 0; i < Selectors; ++i) weights[i] = sets_[i].weights(selected[i]);
-    Lanes dot = allLanes(0);
+    Lanes dot = Lanes(0);
     for (unsigned j = 0; j < count; j += kLanes) {
       Lanes weight = load(weights[0] + j);
       for (unsigned i = 1; i < Selectors; ++i) weight += load(weights[i] + j);
@@ -126,7 +127,7 @@ class LogisticMixer {
     const float step = sets_[0].rate(selected[0], rate_) * error;
     for (unsigned i = 0; i < Selectors; ++i) {
       // What the sets share is to be learned once: each further one takes half a step.
-      const Lanes scale = allLanes(i == 0 ? step : 0.5F * step);
+      const Lanes scale = Lanes(i == 0 ? step : 0.5F * step);
       for (unsigned j = 0; j < count; j += kLanes) {
         store(weights[i] + j, load(weights[i] + j) + scale * load(evidence.inputs() + j));
       }
@@ -142,4 +143,5 @@ class LogisticMixer {
   unsigned counterAge_;
 };
 
+}  // namespace BSPC_LANE_SET
 }  // namespace bspc::entropy

@@ -6,6 +6,7 @@
 #include "geometry/fast/fast_method.h"
 #include "geometry/kd/kd_method.h"
 #include "geometry/partition/partition_method.h"
+#include "geometry/predictive/predictive_method.h"
 
 namespace bspc {
 
@@ -16,12 +17,13 @@ struct NamedMethod {
   const char* name;
 };
 
-constexpr std::array<NamedMethod, 5> kMethods{{
+constexpr std::array<NamedMethod, 6> kMethods{{
     {Method::Kd, "kd"},
     {Method::Fast, "fast"},
     {Method::Bsp, "bsp"},
     {Method::Octree, "octree"},
     {Method::GenCode, "gencode"},
+    {Method::Predictive, "predictive"},
 }};
 
 }  // namespace
@@ -53,6 +55,7 @@ const GeometryMethod* findGeometryMethod(Method id) {
   static const KdMethod kd;
   static const FastMethod fast;
   static const BspMethod bsp;
+  static const PredictiveMethod predictive;
   switch (id) {
     case Method::Kd:
       return &kd;
@@ -64,6 +67,8 @@ const GeometryMethod* findGeometryMethod(Method id) {
       return &octreeMethod();
     case Method::GenCode:
       return &genCodeMethod();
+    case Method::Predictive:
+      return &predictive;
   }
   return nullptr;
 }

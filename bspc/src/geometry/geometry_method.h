@@ -23,7 +23,7 @@ struct LayerSummary {
 
 /// What a caller may ask of a method; each heeds what concerns it.
 struct CodingWishes {
-  unsigned effort = 2;                ///< 1 (quickest) … 4 (smallest)
+  unsigned effort = 2;                ///< 1 (quickest) … 9 (smallest)
   std::uint64_t stopPoints = 0;       ///< lossy: cells of so many points or fewer stay undivided
   std::optional<unsigned> stopLevel;  ///< lossy: cells of this level stay undivided
 };

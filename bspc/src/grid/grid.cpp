@@ -11,6 +11,7 @@
 
 #include "bspc/error.h"
 #include "grid/axis_map.h"
+#include "grid/float_grid.h"
 
 namespace bspc {
 
@@ -103,6 +104,7 @@ double Grid::coordinate(int axis, std::uint32_t i) const {
 double Grid::coordinateOfMultiple(int axis, std::int64_t k) const {
   const Axis& a = axes[static_cast<std::size_t>(axis)];
   if (form == Form::Affine) return a.origin + static_cast<double>(k) * a.step;
+  if (form == Form::FloatBits) return lattice::coordinateOf(scalarType, k);
   return (static_cast<double>(k) * static_cast<double>(a.numerator)) /
          static_cast<double>(a.denominator);
 }
@@ -110,11 +112,13 @@ double Grid::coordinateOfMultiple(int axis, std::int64_t k) const {
 double Grid::step(int axis) const {
   const Axis& a = axes[static_cast<std::size_t>(axis)];
   if (form == Form::Affine) return a.step;
+  if (form == Form::FloatBits) return 0;
   return static_cast<double>(a.numerator) / static_cast<double>(a.denominator);
 }
 
 bool Grid::sameLattice(const Grid& other) const {
   if (form != other.form) return false;
+  if (form == Form::FloatBits) return scalarType == other.scalarType;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const Axis& a = axes[axis];
     const Axis& b = other.axes[axis];
@@ -134,9 +138,23 @@ void Grid::validate() const {
                                                 scalarName(scalarType) +
                                                 "; give it one of the ten numeric types");
   }
-  if (form != Form::Rational && form != Form::Affine) {
+  if (form > Form::FloatBits) {
     throw Error(ErrorCode::InvalidArgument,
-                "the grid's form is neither rational nor affine; choose one of the two");
+                "the grid's form is neither rational nor affine nor that of float bits; choose one "
+                "of the three");
+  }
+  if (form == Form::FloatBits) {
+    if (!isFloatingPoint(scalarType)) {
+      throw Error(ErrorCode::InvalidArgument, std::string("a grid of float bits cannot restore ") +
+                                                  scalarName(scalarType) +
+                                                  "; give it float32 or float64");
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (axes[axis].base < 0 || axes[axis].base > std::numeric_limits<std::uint32_t>::max()) {
+        refuse(axis, "a base outside 0 … 2^32 - 1");
+      }
+    }
+    return;
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const Axis& a = axes[axis];
@@ -183,7 +201,14 @@ GridRequest GridRequest::onGrid(const Grid& grid) {
   return request;
 }
 
+GridRequest GridRequest::exactFloats() {
+  GridRequest request;
+  request.kind = Kind::ExactFloats;
+  return request;
+}
+
 double restoredCoordinate(const Grid& grid, int axis, std::uint32_t i) {
+  if (lattice::isFloatGrid(grid)) return grid.coordinate(axis, i);  // −0 stays −0
   return lattice::roundToScalar(grid.scalarType, grid.coordinate(axis, i));
 }
 
@@ -259,10 +284,42 @@ void restoreAxis(const Grid& grid, std::size_t axis, Span<const GridPoint> point
   }
 }
 
+/// A coordinate of a float grid in the caller's type; floats keep every bit, integers are rounded.
+template <class T>
+T fromFloatGrid(double value) {
+  if constexpr (std::is_same_v<T, float>) {
+    return lattice::nearestFloat(value);
+  } else {
+    return toScalar<T>(value);
+  }
+}
+
+template <class T>
+void restoreFloats(const Grid& grid, Span<const GridPoint> points, Span<const GridPoint> lowHalves,
+                   T* xyz) {
+  const bool single = grid.scalarType == ScalarType::Float32;
+  for (std::size_t j = 0; j < points.size(); ++j) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t multiple = lattice::finiteMultiple(grid, k, points[j][k]);
+      const std::uint32_t low = lowHalves.empty() ? 0 : lowHalves[j][k];
+      xyz[3 * j + k] = fromFloatGrid<T>(single ? double{lattice::floatOfOrder(multiple)}
+                                               : lattice::doubleOfHalves(multiple, low));
+    }
+  }
+}
+
 }  // namespace
 
 template <class T>
+void restorePositions(const Grid& grid, Span<const GridPoint> points,
+                      Span<const GridPoint> lowHalves, T* xyz) {
+  if (lattice::isFloatGrid(grid)) return restoreFloats(grid, points, lowHalves, xyz);
+  restorePositions(grid, points, xyz);
+}
+
+template <class T>
 void restorePositions(const Grid& grid, Span<const GridPoint> points, T* xyz) {
+  if (lattice::isFloatGrid(grid)) return restoreFloats(grid, points, {}, xyz);
   // A block stays in the cache while its three axes are restored.
   constexpr std::size_t kBlock = 1024;
   const bool whole = hasWholeSteps(grid);
@@ -276,14 +333,32 @@ void restorePositions(const Grid& grid, Span<const GridPoint> points, T* xyz) {
 }
 
 template void restorePositions(const Grid&, Span<const GridPoint>, float*);
+template void restorePositions(const Grid&, Span<const GridPoint>, Span<const GridPoint>, float*);
 template void restorePositions(const Grid&, Span<const GridPoint>, double*);
+template void restorePositions(const Grid&, Span<const GridPoint>, Span<const GridPoint>, double*);
 template void restorePositions(const Grid&, Span<const GridPoint>, std::int8_t*);
+template void restorePositions(const Grid&, Span<const GridPoint>, Span<const GridPoint>,
+                               std::int8_t*);
 template void restorePositions(const Grid&, Span<const GridPoint>, std::int16_t*);
+template void restorePositions(const Grid&, Span<const GridPoint>, Span<const GridPoint>,
+                               std::int16_t*);
 template void restorePositions(const Grid&, Span<const GridPoint>, std::int32_t*);
+template void restorePositions(const Grid&, Span<const GridPoint>, Span<const GridPoint>,
+                               std::int32_t*);
 template void restorePositions(const Grid&, Span<const GridPoint>, std::int64_t*);
+template void restorePositions(const Grid&, Span<const GridPoint>, Span<const GridPoint>,
+                               std::int64_t*);
 template void restorePositions(const Grid&, Span<const GridPoint>, std::uint8_t*);
+template void restorePositions(const Grid&, Span<const GridPoint>, Span<const GridPoint>,
+                               std::uint8_t*);
 template void restorePositions(const Grid&, Span<const GridPoint>, std::uint16_t*);
+template void restorePositions(const Grid&, Span<const GridPoint>, Span<const GridPoint>,
+                               std::uint16_t*);
 template void restorePositions(const Grid&, Span<const GridPoint>, std::uint32_t*);
+template void restorePositions(const Grid&, Span<const GridPoint>, Span<const GridPoint>,
+                               std::uint32_t*);
 template void restorePositions(const Grid&, Span<const GridPoint>, std::uint64_t*);
+template void restorePositions(const Grid&, Span<const GridPoint>, Span<const GridPoint>,
+                               std::uint64_t*);
 
 }  // namespace bspc

@@ -11,6 +11,7 @@
 
 #include "bspc/error.h"
 #include "grid/axis_map.h"
+#include "grid/float_grid.h"
 #include "grid/known_lattice.h"
 #include "grid/lattice.h"
 #include "grid/points_in_memory.h"
@@ -165,6 +166,7 @@ Ranges rangesOf(const Coordinates& coordinates) {
 }
 
 void placeBases(Grid& grid, const Ranges& ranges) {
+  if (isFloatGrid(grid)) return placeFloatBases(grid, ranges);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const AxisMap map(grid, axis);
     const AxisRange& range = ranges[axis];
@@ -180,6 +182,7 @@ void placeBases(Grid& grid, const Ranges& ranges) {
 }
 
 std::uint32_t topIndex(const Grid& grid, std::size_t axis, const AxisRange& range) {
+  if (isFloatGrid(grid)) return topFloatIndex(grid, axis, range);
   const double top = AxisMap(grid, axis).snap(range.max).multiple;
   return static_cast<std::uint32_t>(top - static_cast<double>(grid.axes[axis].base));
 }
@@ -274,6 +277,10 @@ void quantiseWhole(const PointSetView& view, const std::array<WholeAxis, 3>& axe
 std::array<double, 3> quantise(const Coordinates& coordinates, const Ranges& ranges,
                                const PlacedGrid& placed, const GridPointSink& sink,
                                const ShareReport& report) {
+  if (isFloatGrid(placed.grid)) {
+    quantiseFloats(coordinates, placed.grid, sink, report);
+    return {};
+  }
   const PointSetView* view = coordinates.inMemory();
   const auto whole = view != nullptr ? wholeAxes(ranges, placed) : std::nullopt;
   if (whole) {
@@ -316,6 +323,28 @@ PlacedGrid automaticGrid(const Coordinates& coordinates, const Ranges& ranges,
   return {wholeNumbers, false};
 }
 
+PlacedGrid exactGrid(const Coordinates& coordinates, const Ranges& ranges,
+                     const GridRequest& request) {
+  if (!isFloatingPoint(coordinates.type())) return automaticGrid(coordinates, ranges, request);
+  if (!hasNegativeZero(coordinates)) {
+    const PlacedGrid lattice = automaticGrid(coordinates, ranges, request);
+    if (lattice.exact) return lattice;
+  }
+  return {floatGrid(coordinates.type()), true};
+}
+
+Grid reusedGrid(ScalarType type, const Grid& reuse) {
+  if (isFloatGrid(reuse) && reuse.scalarType != type) {
+    throw Error(ErrorCode::InvalidArgument, std::string("the grid holds the bits of ") +
+                                                scalarName(reuse.scalarType) +
+                                                " and the points are " + scalarName(type) +
+                                                "; convert them, or choose another grid");
+  }
+  Grid grid = reuse;
+  grid.scalarType = type;
+  return grid;
+}
+
 /// Bases are not placed yet.
 PlacedGrid chooseGrid(const Coordinates& coordinates, const Ranges& ranges,
                       const GridRequest& request) {
@@ -327,11 +356,10 @@ PlacedGrid chooseGrid(const Coordinates& coordinates, const Ranges& ranges,
       break;
     case GridRequest::Kind::Precision:
       return {gridWithPrecision(type, ranges, request.precision), false};
-    case GridRequest::Kind::Reuse: {
-      Grid grid = request.reuse;
-      grid.scalarType = type;
-      return {grid, false};
-    }
+    case GridRequest::Kind::Reuse:
+      return {reusedGrid(type, request.reuse), false};
+    case GridRequest::Kind::ExactFloats:
+      return exactGrid(coordinates, ranges, request);
     case GridRequest::Kind::Automatic:
       break;
   }
@@ -363,6 +391,8 @@ void requireAboveBases(const Grid& grid, const Ranges& ranges) {
                                             text(ranges[axis].min) +
                                             " lies below the grid that is to be kept as it is");
     }
+    // Floats of a grid of float bits never lie too far above it.
+    if (isFloatGrid(grid)) continue;
     const double top = AxisMap(grid, axis).snap(ranges[axis].max).multiple;
     if (top - static_cast<double>(base) > kMaxIndex) {
       throw Error(ErrorCode::OutOfGrid, std::string("the coordinate ") + "xyz"[axis] + " = " +
@@ -394,7 +424,7 @@ void validate(const GridRequest& request) {
 
 Grid emptyGrid(ScalarType type, const GridRequest& request) {
   Grid grid;
-  if (request.kind == GridRequest::Kind::Reuse) grid = request.reuse;
+  if (request.kind == GridRequest::Kind::Reuse) grid = reusedGrid(type, request.reuse);
   for (Grid::Axis& axis : grid.axes) axis.base = 0;
   grid.scalarType = type;
   return grid;

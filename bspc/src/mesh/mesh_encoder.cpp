@@ -10,6 +10,7 @@
 #include "attributes/array_coder.h"
 #include "bspc/error.h"
 #include "connectivity/connectivity_coder.h"
+#include "grid/float_grid.h"
 
 namespace bspc {
 
@@ -128,7 +129,8 @@ Bytes MeshEncoder::encode(const GridFit& fit, unsigned effort, std::uint64_t til
   wishes.effort = effort;
   wishes.keepOrder = options_.keepOrder;
   // Arrays tell points at the same place apart.
-  wishes.mayRenumber = !options_.keepOrder && !options_.originalIds && points_.arrays().empty();
+  wishes.mayRenumber = !options_.keepOrder && !options_.originalIds && points_.arrays().empty() &&
+                       !lattice::hasLowHalves(fit.grid);
   connectivity::EncodedMesh coded =
       connectivity::encodeMesh({points, stepsOf(fit.grid)}, cells, wishes);
   if (!coded.pointOrder.empty()) {
@@ -158,7 +160,7 @@ void MeshEncoder::encodeArrays(const std::vector<GridPoint>& points, const MeshC
   centres.reserve(given.size());
   for (const std::uint64_t i : cellOrder) centres.push_back(given[i]);
   attributes::TilePoints places(centres);
-  const ArraySource source(points_.cellArrays(), false);
+  const ArraySource source(points_.cellArrays(), 0, false);
   for (std::size_t a = 0; a < source.size(); ++a) {
     const ArrayDescription description = source.description(a);
     attributes::ArrayValues values = source.gather(a, cellOrder);
@@ -195,6 +197,7 @@ std::vector<GridPoint> cellCentres(const std::vector<GridPoint>& points, const M
 }
 
 std::array<double, 3> stepsOf(const Grid& grid) {
+  if (lattice::isFloatGrid(grid)) return {1, 1, 1};  // steps of floats have no one length
   return {grid.step(0), grid.step(1), grid.step(2)};
 }
 

@@ -9,6 +9,7 @@
 #include "container/byte_reader.h"
 #include "container/byte_writer.h"
 #include "container/grid_record.h"
+#include "grid/float_grid.h"
 #include "grid/grid_fit.h"
 #include "grid/ratio.h"
 #include "grid/step_choice.h"
@@ -137,6 +138,9 @@ Grid unplacedGrid(const PartDescription& all, const GridRequest& request) {
   }
   if (request.kind == GridRequest::Kind::Bits && !point) {
     return lattice::gridWithBits(all.type, all.ranges, request.bits);
+  }
+  if (request.kind == GridRequest::Kind::ExactFloats && isFloatingPoint(all.type)) {
+    return lattice::floatGrid(all.type);
   }
   if (isFloatingPoint(all.type)) return lattice::defaultGrid(all.type, all.ranges);
   Grid wholeNumbers;

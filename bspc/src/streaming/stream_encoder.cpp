@@ -5,15 +5,22 @@
 #include <string>
 #include <utility>
 
+#include "arrays/array_checks.h"
+#include "arrays/array_source.h"
+#include "arrays/low_halves.h"
 #include "bspc/error.h"
 #include "coding_plan.h"
 #include "container/container_writer.h"
+#include "encoded_head.h"
+#include "grid/float_grid.h"
 #include "grid/grid_fit.h"
 #include "progress_scale.h"
 #include "set_encoder.h"
 #include "shared_progress.h"
 #include "streaming/point_parts.h"
+#include "streaming/record_layout.h"
 #include "streaming/stored_coordinates.h"
+#include "streaming/stored_set.h"
 
 namespace bspc {
 
@@ -35,69 +42,85 @@ std::uint64_t memoryFor(const StreamOptions& options) {
   return std::max(options.memoryBytes, kLeastMemory) - kFixedBytes;
 }
 
-/// The first points of the stream, as many as can be coded in memory; `ended` if they are all.
+/// Points of a stream that are in memory.
+struct PointsInMemory {
+  Bytes positions;
+  std::vector<ArrayValues> values;
+};
+
+/// Reads a stream piece by piece.
+class PieceReader {
+ public:
+  explicit PieceReader(PointReader& reader)
+      : reader_(reader), pointBytes_(3 * scalarSize(reader.type())) {}
+
+  std::size_t pointBytes() const { return pointBytes_; }
+  /// Bytes of a point in memory with its tuples, but without the characters of strings.
+  std::size_t rowBytes() const {
+    std::size_t bytes = pointBytes_;
+    for (const ArrayDescription& array : reader_.arrays()) {
+      bytes += array.components * arrayValueSize(array.type);
+    }
+    return bytes;
+  }
+  /// Arrays without values.
+  std::vector<ArrayValues> noValues() const {
+    std::vector<ArrayValues> values(reader_.arrays().size());
+    for (std::size_t a = 0; a < values.size(); ++a) {
+      static_cast<ArrayDescription&>(values[a]) = reader_.arrays()[a];
+    }
+    return values;
+  }
+  /// Appends points; how many, 0 at the end.
+  std::size_t append(PointsInMemory& points) {
+    const std::size_t before = points.positions.size();
+    points.positions.resize(before + kPiece * pointBytes_);
+    const std::size_t got = reader_.read(points.positions.data() + before, points.values, kPiece);
+    points.positions.resize(before + got * pointBytes_);
+    for (const ArrayValues& array : points.values) {
+      if (array.tuples() == points.positions.size() / pointBytes_) continue;
+      throw Error(
+          ErrorCode::InvalidArgument,
+          "a reader of points gave other tuples of the array \"" + array.name + "\" than points");
+    }
+    return got;
+  }
+
+ private:
+  PointReader& reader_;
+  std::size_t pointBytes_;
+};
+
+/// The first points of the stream, as many as can be coded in memory.
 struct FirstPoints {
-  Bytes bytes;
-  bool ended = false;
+  PointsInMemory points;
+  bool ended = false;  ///< they are all
 };
 
 FirstPoints readFirst(PointReader& reader, const StreamOptions& options, ProgressScale& progress) {
-  const std::size_t pointBytes = 3 * scalarSize(reader.type());
-  const std::uint64_t most =
-      memoryFor(options) / (pointBytes + sizeof(GridPoint) + kCodingBytesPerPoint);
+  PieceReader pieces(reader);
+  const std::size_t tupleBytes = pieces.rowBytes() - pieces.pointBytes();
+  // Values are copied once more where a tile is coded.
+  const std::uint64_t most = memoryFor(options) / (pieces.rowBytes() + tupleBytes +
+                                                   sizeof(GridPoint) + kCodingBytesPerPoint);
   FirstPoints first;
+  first.points.values = pieces.noValues();
   // Address space alone: memory is taken as points come.
   const std::uint64_t expected = reader.expected() != 0 ? reader.expected() + kPiece : most;
-  first.bytes.reserve(static_cast<std::size_t>(std::min(most, expected)) * pointBytes);
-  while (first.bytes.size() / pointBytes < most) {
+  const auto reserved = static_cast<std::size_t>(std::min(most, expected));
+  first.points.positions.reserve(reserved * pieces.pointBytes());
+  for (ArrayValues& array : first.points.values) {
+    if (array.type == ScalarType::String) continue;
+    array.values.reserve(reserved * array.components * arrayValueSize(array.type));
+  }
+  while (first.points.positions.size() / pieces.pointBytes() < most) {
     progress.report(0);
-    const std::size_t before = first.bytes.size();
-    first.bytes.resize(before + kPiece * pointBytes);
-    const std::size_t got = reader.read(first.bytes.data() + before, {}, kPiece);
-    first.bytes.resize(before + got * pointBytes);
-    if (got == 0) {
-      first.ended = true;
-      break;
-    }
+    if (pieces.append(first.points) > 0) continue;
+    first.ended = true;
+    break;
   }
   return first;
 }
-
-/// The finite points of a stream in scratch storage.
-class StoredSet {
- public:
-  StoredSet(std::unique_ptr<ScratchStorage> storage, ScalarType type, bool dropNonFinite)
-      : storage_(std::move(storage)), type_(type), dropNonFinite_(dropNonFinite) {}
-
-  void append(ByteView bytes) {
-    const std::size_t pointBytes = 3 * scalarSize(type_);
-    const PointSetView view(bytes.data(), type_, bytes.size() / pointBytes, 0);
-    lattice::requireIntegersInDoubles(view, size_ + dropped_);
-    const lattice::FinitePoints finite =
-        lattice::finitePoints(view, dropNonFinite_, size_ + dropped_);
-    dropped_ += finite.dropped;
-    size_ += view.size() - finite.dropped;
-    if (finite.dropped == 0) return storage_->append(bytes);
-    Bytes kept;
-    for (const std::uint64_t i : finite.kept) {
-      const std::uint8_t* at = bytes.data() + static_cast<std::size_t>(i) * pointBytes;
-      kept.insert(kept.end(), at, at + pointBytes);
-    }
-    storage_->append(kept);
-  }
-
-  streaming::StoredCoordinates coordinates() const { return {*storage_, type_, size_}; }
-  std::uint64_t size() const { return size_; }
-  std::uint64_t dropped() const { return dropped_; }
-  ScalarType type() const { return type_; }
-
- private:
-  std::unique_ptr<ScratchStorage> storage_;
-  ScalarType type_;
-  bool dropNonFinite_;
-  std::uint64_t size_ = 0;
-  std::uint64_t dropped_ = 0;
-};
 
 void checkOptions(const StreamOptions& options) {
   if (!options.encoding.wantOrder) return;
@@ -123,6 +146,8 @@ class LargeSetEncoder {
                   "limit");
     }
     lattice::validate(options_.encoding.grid);
+    records_ =
+        std::make_unique<streaming::RecordLayout>(reader.arrays(), options_.encoding.originalIds);
     store(std::move(first), reader);
     report_.points = set_->size();
     report_.dropped = set_->dropped();
@@ -134,23 +159,22 @@ class LargeSetEncoder {
 
  private:
   void store(FirstPoints first, PointReader& reader) {
-    const std::size_t pointBytes = 3 * scalarSize(reader.type());
-    set_ = std::make_unique<StoredSet>(options_.scratch(), reader.type(),
-                                       options_.encoding.grid.dropNonFinite);
-    for (std::size_t at = 0; at < first.bytes.size(); at += kPiece * pointBytes) {
-      const std::size_t size = std::min(kPiece * pointBytes, first.bytes.size() - at);
-      set_->append(ByteView(first.bytes).subspan(at, size));
+    set_ = std::make_unique<streaming::StoredSet>(options_.scratch, reader.type(), *records_,
+                                                  options_.encoding.grid.dropNonFinite);
+    PieceReader pieces(reader);
+    const ByteView all = first.points.positions;
+    const std::size_t step = kPiece * pieces.pointBytes();
+    for (std::size_t at = 0; at < all.size(); at += step) {
+      set_->append(all.subspan(at, std::min(step, all.size() - at)), first.points.values,
+                   at / pieces.pointBytes());
       progress_.report(0);
     }
-    first.bytes = {};
-    Bytes piece(kPiece * pointBytes);
+    first = {};
     for (;;) {
+      PointsInMemory piece{{}, pieces.noValues()};
       progress_.report(0);
-      piece.resize(kPiece * pointBytes);
-      const std::size_t got = reader.read(piece.data(), {}, kPiece);
-      if (got == 0) break;
-      piece.resize(got * pointBytes);
-      set_->append(piece);
+      if (pieces.append(piece) == 0) break;
+      set_->append(piece.positions, piece.values);
     }
     progress_.report(kRead);
   }
@@ -158,7 +182,7 @@ class LargeSetEncoder {
   void chooseGrid() {
     if (set_->size() == 0) {
       report_.grid = lattice::emptyGrid(set_->type(), options_.encoding.grid);
-      parts_ = std::make_unique<streaming::PointParts>(tiling::DyadicBox(), 1);
+      parts_ = std::make_unique<streaming::PointParts>(tiling::DyadicBox(), 1, 0);
       parts_->cut(nullptr, 0);
       return;
     }
@@ -175,18 +199,74 @@ class LargeSetEncoder {
       countParts(coordinates, ranges, false);
     }
     report_.exact = report_.maxError == std::array<double, 3>{};
-    parts_->cut(options_.scratch(), memoryFor(options_) / 8);
+    storeParts(coordinates, ranges, placed.exact);
+    progress_.report(kCut);
+  }
+
+  void storeParts(const lattice::Coordinates& coordinates, const lattice::Ranges& ranges,
+                  bool exact) {
+    if (options_.encoding.keepOrder) {
+      parts_->keepTogether(options_.scratch());
+    } else {
+      parts_->cut(options_.scratch(), memoryFor(options_) / 8);
+    }
     lattice::quantise(
-        coordinates, ranges, {report_.grid, placed.exact},
-        [this](std::uint64_t, Span<const GridPoint> points) { parts_->store(points); },
+        coordinates, ranges, {report_.grid, exact},
+        [&](std::uint64_t first, Span<const GridPoint> points) {
+          parts_->store(points, recordsOf(coordinates, first, points.size()));
+        },
         [this](double) { progress_.report(kGridKnown); });
     parts_->flush();
-    progress_.report(kCut);
+  }
+
+  /// What is stored beside grid points: their low halves, if the grid has such, and their tuples.
+  const Bytes& recordsOf(const lattice::Coordinates& coordinates, std::uint64_t first,
+                         std::size_t count) {
+    if (recordBytes() == 0) return piece_;
+    const std::size_t tuples = records_->bytes();
+    if (first < pieceFirst_ || first + count > pieceFirst_ + pieceCount_) {
+      pieceFirst_ = first;
+      pieceCount_ = static_cast<std::size_t>(std::min<std::uint64_t>(kPiece, set_->size() - first));
+      tuples_ = set_->records(first, pieceCount_);
+    }
+    const std::uint8_t* from = tuples_.data() + (first - pieceFirst_) * tuples;
+    if (!lattice::hasLowHalves(report_.grid)) {
+      piece_.assign(from, from + count * tuples);
+      return piece_;
+    }
+    std::vector<GridPoint> halves(count);
+    lattice::lowHalves(coordinates, first, count, halves.data());
+    piece_.resize(count * recordBytes());
+    for (std::size_t i = 0; i < count; ++i) {
+      std::uint8_t* to = piece_.data() + i * recordBytes();
+      std::memcpy(to, halves[i].data(), sizeof(GridPoint));
+      if (tuples > 0) std::memcpy(to + sizeof(GridPoint), from + i * tuples, tuples);
+    }
+    return piece_;
+  }
+
+  std::size_t hiddenBytes() const {
+    return lattice::hasLowHalves(report_.grid) ? sizeof(GridPoint) : 0;
+  }
+  std::size_t recordBytes() const { return hiddenBytes() + records_->bytes(); }
+
+  /// The arrays in the records of a part.
+  std::vector<ArrayView> viewsOf(const streaming::PartPoints& part) const {
+    const std::uint8_t* records = part.records.data();
+    std::vector<ArrayView> views = records_->views(
+        records == nullptr ? nullptr : records + hiddenBytes(), recordBytes(), part.points.size());
+    if (hiddenBytes() == 0) return views;
+    ArrayView halves = lowHalvesView({});
+    halves.tuples = part.points.size();
+    halves.data = records;
+    halves.strideBytes = recordBytes();
+    views.insert(views.begin(), halves);
+    return views;
   }
 
   void countParts(const lattice::Coordinates& coordinates, const lattice::Ranges& ranges,
                   bool exact) {
-    parts_ = std::make_unique<streaming::PointParts>(gridBox(ranges), partPoints());
+    parts_ = std::make_unique<streaming::PointParts>(gridBox(ranges), partPoints(), recordBytes());
     report_.maxError = lattice::quantise(
         coordinates, ranges, {report_.grid, exact},
         [this](std::uint64_t, Span<const GridPoint> points) { parts_->count(points); },
@@ -194,8 +274,9 @@ class LargeSetEncoder {
   }
 
   std::uint64_t partPoints() const {
-    return std::min<std::uint64_t>(memoryFor(options_) / (sizeof(GridPoint) + kCodingBytesPerPoint),
-                                   std::uint64_t{1} << 31);
+    // Records are copied once more where a tile is coded.
+    const std::size_t bytes = sizeof(GridPoint) + 2 * recordBytes() + kCodingBytesPerPoint;
+    return std::min<std::uint64_t>(memoryFor(options_) / bytes, std::uint64_t{1} << 31);
   }
 
   tiling::DyadicBox gridBox(const lattice::Ranges& ranges) const {
@@ -209,18 +290,22 @@ class LargeSetEncoder {
     report_.method = plan.method->id();
     report_.layout = Layout::Streaming;
     report_.layers = plan.layers;
-    container::FileHead head;
-    head.layers = plan.layers;
-    head.grid = report_.grid;
-    container::ContainerWriter writer(sink_, Layout::Streaming, std::move(head));
+    const std::vector<ArrayView> noViews = viewsOf({});
+    const std::size_t hidden = hiddenBytes() > 0 ? 1 : 0;
+    container::ContainerWriter writer(
+        sink_, Layout::Streaming,
+        beginFile(ArraySource(noViews, hidden, false), options_.encoding, report_));
     ProgressScale coding(options_.encoding.progress, kCut, 1);
     SharedProgress progress(coding, report_.points);
-    SetEncoder encoder(plan, options_.encoding, {}, progress, writer, report_);
-    const std::uint64_t most = partPoints();
+    const std::uint64_t most = pointsAtATime(plan);
     for (std::size_t part = 0; part < parts_->parts(); ++part) {
       for (std::uint64_t first = 0; first < parts_->size(part); first += most) {
         const std::uint64_t count = std::min(most, parts_->size(part) - first);
-        encoder.encode(parts_->load(part, first, count), {}, nullptr);
+        const streaming::PartPoints loaded = parts_->load(part, first, count);
+        const std::vector<ArrayView> views = viewsOf(loaded);
+        SetEncoder(plan, options_.encoding, ArraySource(views, hidden, false), progress, writer,
+                   report_)
+            .encode(loaded.points, {}, nullptr);
       }
     }
     writer.finish();
@@ -228,21 +313,24 @@ class LargeSetEncoder {
     coding.report(1);
   }
 
+  /// Whole tiles of them, where tiles are ranges of the input.
+  std::uint64_t pointsAtATime(const CodingPlan& plan) const {
+    const std::uint64_t most = partPoints();
+    return plan.tilePoints < most ? most / plan.tilePoints * plan.tilePoints : most;
+  }
+
   const StreamOptions& options_;
   ByteSink& sink_;
   ProgressScale& progress_;
-  std::unique_ptr<StoredSet> set_;
+  std::unique_ptr<streaming::RecordLayout> records_;
+  std::unique_ptr<streaming::StoredSet> set_;
+  Bytes tuples_;  ///< of the points pieceFirst_, …
+  std::uint64_t pieceFirst_ = 0;
+  std::size_t pieceCount_ = 0;
+  Bytes piece_;
   std::unique_ptr<streaming::PointParts> parts_;
   EncodeReport report_;
 };
-
-/// What is not wired up yet is refused rather than dropped.
-void refuseArrays(const PointReader& points) {
-  if (points.arrays().empty()) return;
-  throw Error(ErrorCode::Unsupported, "the stream has the array \"" + points.arrays()[0].name +
-                                          "\", and this version stores positions only; leave "
-                                          "the arrays out to store the positions");
-}
 
 }  // namespace
 
@@ -253,13 +341,16 @@ const std::vector<ArrayDescription>& PointReader::arrays() const {
 
 EncodeReport encodeStream(PointReader& points, ByteSink& sink, const StreamOptions& options) {
   checkOptions(options);
-  refuseArrays(points);
+  checkDescriptions(points.arrays(), options.encoding);
+  checkMetadata(options.encoding.metadata);
   planCoding(options.encoding, 0);  // wishes that cannot be met are refused before any work
   ProgressScale progress(options.encoding.progress, 0, 1);
   FirstPoints first = readFirst(points, options, progress);
   if (!first.ended) return LargeSetEncoder(options, sink, progress).run(std::move(first), points);
   const std::size_t pointBytes = 3 * scalarSize(points.type());
-  const PointSetView view(first.bytes.data(), points.type(), first.bytes.size() / pointBytes, 0);
+  PointSetView view(first.points.positions.data(), points.type(),
+                    first.points.positions.size() / pointBytes, 0);
+  for (const ArrayValues& array : first.points.values) view.addArray(array.view());
   return encode(view, sink, options.encoding);
 }
 

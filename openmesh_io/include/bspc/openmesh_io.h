@@ -18,8 +18,8 @@
 // "OriginalPointIds" (std::uint64_t) tells the handle that each vertex had. Attributes follow their
 // vertices and faces: normals, colours and status if the options and the mesh ask for them, 2D
 // texture coordinates of vertices, and persistent properties of numbers, vectors and strings of
-// vertices and faces. What cannot be stored (attributes of edges and halfedges, other properties) is
-// an error, told in omerr(), rather than left out. Deleted vertices and faces are left out.
+// vertices and faces. What cannot be stored (attributes of edges and halfedges, other properties)
+// is an error, told in omerr(), rather than left out. Deleted vertices and faces are left out.
 
 namespace bspc::openmesh {
 
@@ -44,7 +44,8 @@ BSPC_OPENMESH_API ReadSettings& readSettings();
 BSPC_OPENMESH_API bool registerModule();
 
 /// Through OpenMesh's interface for all meshes. On entry `options` say which attributes are wished,
-/// on return which ones the file has. False on failure, told in omerr(); the mesh is then as it was.
+/// on return which ones the file has. False on failure, told in omerr(); the mesh is then as it
+/// was.
 BSPC_OPENMESH_API bool read(std::istream& stream, OpenMesh::IO::BaseImporter& importer,
                             OpenMesh::IO::Options& options, const ReadSettings& settings);
 BSPC_OPENMESH_API bool read(const std::string& filename, OpenMesh::IO::BaseImporter& importer,

@@ -8,11 +8,13 @@
 
 #include "bspc/error.h"
 #include "entropy/adaptive_bit.h"
+#include "entropy/lanes.h"
 #include "entropy/symbol_coder.h"
 #include "geometry/predictive/mirror_plane.h"
 #include "geometry/predictive/phase_lattice.h"
 
 namespace bspc::geometry::predictive {
+inline namespace BSPC_LANE_SET {
 
 /// Codes the copies of points that a plane mirrors: for each original, in the order that they were
 /// decoded in, whether it has a copy, and how far that lies beside the exact image.
@@ -91,4 +93,5 @@ class MirrorCoder {
   std::array<std::array<std::array<Models, 3>, kLikely>, 3> steps_;
 };
 
+}  // namespace BSPC_LANE_SET
 }  // namespace bspc::geometry::predictive

@@ -15,6 +15,7 @@
 #include "geometry/predictive/range_image.h"
 
 namespace bspc::geometry::predictive {
+inline namespace BSPC_LANE_SET {
 
 /// Codes range images: a head, then row by row whether pixels have a point, and how far its depth
 /// is, in depths that occur, from what the pixels around tell.
@@ -366,4 +367,5 @@ class RangeImageCoder {
   std::size_t depths_ = 0;
 };
 
+}  // namespace BSPC_LANE_SET
 }  // namespace bspc::geometry::predictive

@@ -1,0 +1,49 @@
+#include "geometry/predictive/efforts.h"
+
+namespace bspc::geometry::predictive {
+
+namespace {
+
+constexpr std::uint32_t kLean = Features::kQuadric | Features::kParallelograms |
+                                Features::kProjection | Features::kAxisValues | Features::kPhase |
+                                Features::kMirror | Features::kRangeImage;
+constexpr std::uint32_t kMiddle =
+    kLean | Features::kSeparateKinds | Features::kNearest | Features::kManyContexts;
+
+}  // namespace
+
+Features featuresOf(unsigned effort) {
+  Features f;
+  switch (effort) {
+    case 5:
+      f.flags = kLean;
+      f.nearPoints = 6;
+      f.pairReach = 8;
+      f.refit = Features::Refit::PerCell;
+      break;
+    case 6:
+      f.flags = kLean;
+      f.nearPoints = 10;
+      f.pairReach = 9;
+      f.refit = Features::Refit::PerPoint;
+      break;
+    case 7:
+      f.flags = kMiddle;
+      f.nearPoints = 12;
+      f.pairReach = 14;
+      f.refit = Features::Refit::PerPoint;
+      break;
+    case 8:
+      f.nearPoints = 14;
+      f.pairReach = 16;
+      f.refit = Features::Refit::PerPoint;
+      break;
+    default:
+      f.nearPoints = 18;
+      f.pairReach = 16;
+      f.refit = Features::Refit::Always;
+  }
+  return f;
+}
+
+}  // namespace bspc::geometry::predictive

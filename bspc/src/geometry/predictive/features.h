@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+
+namespace bspc::geometry::predictive {
+
+/// What the coder of a tile takes into account. The encoder chooses, the tile's header says;
+/// efforts are presets of it.
+struct Features {
+  enum Flag : std::uint32_t {
+    kQuadric = 1U << 0,          ///< a quadric is fitted, not only a plane
+    kPlane = 1U << 1,            ///< the plane is evidence beside the quadric
+    kParallelograms = 1U << 2,   ///< candidates a + b − c
+    kProjection = 1U << 3,       ///< candidates once more, moved onto the quadric
+    kSeparateKinds = 1U << 4,    ///< the two kinds of candidates are separate evidence
+    kTwoScales = 1U << 5,        ///< candidates count at two widths rather than one
+    kAxisValues = 1U << 6,       ///< coordinates used before
+    kWideCoordinates = 1U << 7,  ///< coordinates of near points at a second width
+    kDensity = 1U << 8,          ///< how many points lie on either side
+    kNearest = 1U << 9,          ///< distance of either half to the nearest point
+    kManyContexts = 1U << 10,    ///< six more contexts of side decisions
+    kPhase = 1U << 11,           ///< a lattice finer than the grid or offset from it
+    kMirror = 1U << 12,          ///< mirrored copies
+    kRangeImage = 1U << 13,      ///< raster of a depth camera
+  };
+  static constexpr std::uint32_t kAllFlags = (1U << 14) - 1;
+
+  /// When the surface is fitted anew.
+  enum class Refit : std::uint8_t { PerCell, PerPoint, Always };
+
+  static constexpr std::uint8_t kMostNearPoints = 24;
+
+  std::uint32_t flags = kAllFlags;
+  std::uint8_t cellPoints = 6;   ///< cells of so many points or fewer are coded depth first
+  std::uint8_t nearPoints = 16;  ///< so many known points make candidates at first
+  std::uint8_t pairReach = 16;   ///< pairs of them make candidates up to that distance: its square
+  Refit refit = Refit::Always;
+
+  bool has(Flag flag) const { return (flags & flag) != 0; }
+};
+
+}  // namespace bspc::geometry::predictive

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <array>
+
+#include "entropy/logistic_math.h"
+#include "geometry/predictive/neighbourhood.h"
+#include "geometry/predictive/question.h"
+
+namespace bspc::geometry::predictive {
+inline namespace BSPC_LANE_SET {
+
+using Vector3 = std::array<float, 3>;
+
+inline float dot(const Vector3& a, const Vector3& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+inline Vector3 cross(const Vector3& a, const Vector3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// ln of the odds that a quantity lies in the upper half of ± half around 0, when it is spread
+/// around `middle` with a scale of 1 / inverseScale.
+inline float halvesLogit(float middle, float inverseScale, float half) {
+  const float at = entropy::bell(-middle * inverseScale);
+  const float low = entropy::bell((-half - middle) * inverseScale);
+  const float high = entropy::bell((half - middle) * inverseScale);
+  return entropy::naturalLog((high - at + 1e-5F) / (at - low + 1e-5F));
+}
+
+/// Weighted least-squares plane through a neighbourhood (principal component analysis).
+struct Plane {
+  bool valid = false;
+  Vector3 normal{};
+  Vector3 through{};   ///< grid steps
+  float variance = 0;  ///< of distances to it, square grid steps
+
+  float evidence(const Question& q) const;
+};
+
+/// Height above a plane as a quadratic function of the place in it, in units of the spacing.
+struct Quadric {
+  bool valid = false;
+  Vector3 u{};
+  Vector3 v{};
+  Vector3 normal{};
+  Vector3 centre{};             ///< grid steps
+  float inverseSpacing = 1;     ///< units per grid step
+  std::array<float, 6> term{};  ///< of 1, u, v, u², uv, v²
+
+  struct Value {
+    float height = 0;  ///< of the place above the surface, along the normal, in units
+    Vector3 gradient{};
+  };
+  Value at(float x, float y, float z) const;
+  float heightAt(float x, float y, float z) const { return at(x, y, z).height; }
+
+  /// `error`: the scale of what heights are wrong by, in units.
+  float evidence(const Question& q, float error) const;
+};
+
+/// Predictor: the surface that the neighbourhood lies on.
+class Surface {
+ public:
+  Plane plane;
+  Quadric quadric;
+
+  /// Fits to the neighbourhood, nearer and smaller parts counting more. `reach`: where weights
+  /// of the plane have fallen to half, in spacings.
+  void fit(const Neighbourhood& near, const Vector3& centre, float spacing, float reach,
+           bool wantQuadric);
+
+ private:
+  /// Coordinates in units around the centre, by lanes.
+  struct Scaled {
+    unsigned groups = 0;
+    std::array<entropy::Lanes, Neighbourhood::kRoom / entropy::kLanes> x, y, z, size, present;
+  };
+  void fitPlane(const Scaled& near, const Vector3& centre, float spacing, float reach);
+  void fitQuadric(const Scaled& near, const Vector3& centre, float spacing);
+};
+
+}  // namespace BSPC_LANE_SET
+}  // namespace bspc::geometry::predictive
