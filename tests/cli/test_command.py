@@ -166,14 +166,12 @@ class Content(CommandTest):
         self.write_bytes("a.xyz", b"1 2 3 4\n5 6 7 8\n")
         self.assertEqual(self.check_other_content("a.xyz", "column 4"), [(1, 2, 3), (5, 6, 7)])
 
-    def test_faces_are_refused_unless_left_out_by_name(self):
+    def test_what_hangs_on_faces_is_refused_unless_left_out_by_name(self):
         corners = [(0.0, 0.0, 0.0), (0.0, 1.0, 0.0), (1.0, 0.0, 0.0)]
-        write_ply(self.path("a.ply"), corners, tail=b"\3" + bytes([0, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0]))
-        self.assertEqual(self.check_other_content("a.ply", "face"), corners)
-        self.write_bytes("a.off", b"OFF\n3 1 0\n0 0 0\n0 1 0\n1 0 0\n3 0 1 2\n")
-        self.assertEqual(self.check_other_content("a.off", "face"), corners)
-        self.write_bytes("a.obj", b"v 0 0 0\nv 0 1 0\nv 1 0 0\nf 1 2 3\n")
-        self.assertEqual(self.check_other_content("a.obj", "face"), corners)
+        self.write_bytes("a.off", b"OFF\n3 1 0\n0 0 0\n0 1 0\n1 0 0\n3 0 1 2 255 0 0\n")
+        self.assertEqual(self.check_other_content("a.off", "colours of 1 face"), corners)
+        self.write_bytes("a.obj", b"v 0 0 0\nv 0 1 0\nv 1 0 0\nvn 0 0 1\nf 1//1 2//1 3//1\n")
+        self.assertEqual(self.check_other_content("a.obj", "1 normal"), corners)
 
     def test_laz_is_refused_with_the_way_out(self):
         write_las(self.path("a.laz"), [(1, 2, 3)], (1, 1, 1), (0, 0, 0), mark=128)

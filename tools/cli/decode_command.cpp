@@ -33,6 +33,7 @@ struct DecodeArguments {
   unsigned threads = 0;
   std::optional<std::string> arrays;
   bool positionsOnly = false;
+  bool noFaces = false;
   bool counts = false;
   bool partial = false;
   bool force = false;
@@ -55,6 +56,7 @@ struct Summary {
   bool complete = true;
   std::size_t arrays = 0;
   double formatError = 0;
+  std::uint64_t cells = 0;
 };
 
 /// The arrays that are wished for: their places in the file's table.
@@ -82,6 +84,15 @@ void printReport(const DecodeArguments& args, const std::string& name, const Fil
   if (summary.arrays < wished) {
     std::cerr << "; " << formats::counted(wished - summary.arrays, "array has", "arrays have")
               << " no values at this level";
+  }
+  if (summary.cells > 0) {
+    std::cerr << "; " << formats::counted(summary.cells, "face", "faces");
+  } else if (!info.mesh.empty()) {
+    std::cerr << "; without the faces";
+  }
+  if (!info.mesh.arrays.empty()) {
+    std::cerr << "; without " << formats::counted(info.mesh.arrays.size(), "array", "arrays")
+              << " of the faces";
   }
   if (summary.formatError > 0) {
     std::cerr << "; LAS has rounded coordinates by at most " << rounded(summary.formatError);
@@ -114,7 +125,8 @@ class Restorer {
     for (const ArrayInfo& array : arrays_) options.arrays->push_back(array.name);
     const QueryCost cost = decoder.cost(options);
     const bool counted = !options.box && !(options.maxPoints && cost.points > *options.maxPoints);
-    if (!counted) return runAtOnce(decoder, options);
+    options.mesh = wantsMesh(info);
+    if (!counted || options.mesh) return runAtOnce(decoder, options);
     Summary summary;
     summary.arrays = arraysAt(cost.level).size();
     formats::ModelWriter writer = startWriter(info, cost.points, cost.level);
@@ -134,13 +146,21 @@ class Restorer {
   Summary runAtOnce(Decoder& decoder, const DecodeOptions& options) {
     const DecodedPoints points = decoder.decode(options);
     const RestoredPoints restored(decoder.info(), points);
+    mesh_ = points.mesh.empty() ? nullptr : &points.mesh;
     formats::ModelWriter writer = startWriter(decoder.info(), points.points.size(), points.level);
     writing([&] {
       writer.append(restored.view());
       writer.finish();
     });
-    return {points.points.size(), points.level, points.complete, points.arrays.size(),
-            writer.greatestError()};
+    return {points.points.size(), points.level,           points.complete,
+            points.arrays.size(), writer.greatestError(), points.mesh.size()};
+  }
+
+  /// Whether the cells are wished for and the format has a place for them.
+  bool wantsMesh(const FileInfo& info) const {
+    const bool holdsMesh = format_ == formats::Format::Ply || format_ == formats::Format::Obj ||
+                           format_ == formats::Format::Off;
+    return holdsMesh && !info.mesh.empty() && !args_.noFaces && !args_.positionsOnly;
   }
 
   /// The wished arrays that have values at the level.
@@ -159,6 +179,7 @@ class Restorer {
     layout.arrays = arraysAt(level);
     if (args_.counts) layout.arrays.push_back(countsDescription(info.points));
     if (args_.colourLevel) layout.arrays.push_back(cellIdsDescription(info.points));
+    layout.mesh = mesh_;
     layout.metadata = info.metadata;
     layout.keepsOrder = info.keepsOrder && points == info.points;
     if (info.grid.form != Grid::Form::FloatBits) layout.lattice = info.grid;
@@ -190,6 +211,7 @@ class Restorer {
   OutputFile& output_;
   /// Those of the file that are wished for.
   std::vector<ArrayInfo> arrays_;
+  const MeshCells* mesh_ = nullptr;  ///< what is written behind the points
 };
 
 void runDecode(const DecodeArguments& args) {
@@ -229,7 +251,9 @@ void addDecodeCommand(CLI::App& app) {
   command->add_option("--arrays", args->arrays, "These arrays only; `info` lists their names")
       ->option_text("NAME,...")
       ->group("Arrays");
-  command->add_flag("--positions-only", args->positionsOnly, "No arrays")->group("Arrays");
+  command->add_flag("--positions-only", args->positionsOnly, "No arrays, no faces")
+      ->group("Arrays");
+  command->add_flag("--no-faces", args->noFaces, "No faces")->group("Arrays");
   command->add_flag("--counts", args->counts, "Add PointCount: how many points each stands for")
       ->group("Arrays");
   command

@@ -18,6 +18,7 @@
 #include "cli/scratch_file.h"
 #include "cli/text.h"
 #include "cli/usage_error.h"
+#include "formats/array_tuples.h"
 #include "formats/wording.h"
 
 namespace bspc::cli {
@@ -122,7 +123,7 @@ std::string bitsText(std::uint64_t bytes, std::uint64_t points) {
 
 /// " (12.1 positions, 5.2 in 3 arrays, 2.9 order)", if there is more than positions.
 std::string sharesText(const EncodeReport& report) {
-  if (report.arrays.empty() && report.orderBytes == 0) return "";
+  if (report.arrays.empty() && report.orderBytes == 0 && report.meshBytes == 0) return "";
   std::string text = " (" + bitsText(report.geometryBytes, report.points) + " positions";
   std::uint64_t arrayBytes = 0;
   for (const ArrayReport& array : report.arrays) arrayBytes += array.bytes;
@@ -130,6 +131,7 @@ std::string sharesText(const EncodeReport& report) {
     text += ", " + bitsText(arrayBytes, report.points) + " in " +
             formats::counted(report.arrays.size(), "array", "arrays");
   }
+  if (report.meshBytes > 0) text += ", " + bitsText(report.meshBytes, report.points) + " faces";
   if (report.orderBytes > 0) text += ", " + bitsText(report.orderBytes, report.points) + " order";
   return text + ")";
 }
@@ -170,6 +172,25 @@ void printReport(const EncodeArguments& args, const std::string& name, const Enc
   std::cerr << '\n';
 }
 
+/// Reads the points with their arrays and cells and encodes them at once: streams have no cells.
+EncodeReport encodeWhole(ModelPoints& points, ByteSink& sink, const EncodeOptions& options) {
+  constexpr std::size_t kBlock = std::size_t{1} << 16;
+  const std::size_t pointBytes = 3 * scalarSize(points.type());
+  std::vector<std::uint8_t> positions;
+  std::vector<ArrayValues> values = formats::emptyArrays(points.arrays());
+  for (std::size_t got = kBlock; got > 0;) {
+    const std::size_t size = positions.size();
+    positions.resize(size + kBlock * pointBytes);
+    got = points.read(positions.data() + size, values, kBlock);
+    positions.resize(size + got * pointBytes);
+  }
+  PointSetView view(positions.data(), points.type(), positions.size() / pointBytes, 0);
+  for (const ArrayValues& array : values) view.addArray(array.view());
+  const MeshCells mesh = points.takeMesh();
+  if (!mesh.empty()) view.setMesh(&mesh);
+  return encode(view, sink, options);
+}
+
 void runEncode(const EncodeArguments& args) {
   StreamOptions options;
   options.encoding = encodeOptions(args);
@@ -190,7 +211,10 @@ void runEncode(const EncodeArguments& args) {
       reading.clear();
       return draw(share);
     };
-    report = naming(args.input, [&] { return encodeStream(points, sink, options); });
+    report = naming(args.input, [&] {
+      return points.mayHaveMesh() ? encodeWhole(points, sink, options.encoding)
+                                  : encodeStream(points, sink, options);
+    });
     output.commit();
   }
   if (!args.quiet) printReport(args, output.name(), report);
@@ -230,7 +254,7 @@ void addContentOptions(CLI::App& command, EncodeArguments& args) {
   command.add_flag("--no-faces", content.noFaces, "Leave out faces and edges")->group(kGroup);
   command
       .add_flag("--drop-other", content.dropOther,
-                "Leave out whatever a .bspc file cannot hold, such as faces and lists")
+                "Leave out whatever a .bspc file cannot hold, such as lists")
       ->group(kGroup);
   command
       .add_flag("--drop-nonfinite", args.dropNonFinite,

@@ -7,6 +7,7 @@
 #include "bspc/decoder.h"
 #include "cli/commands.h"
 #include "cli/input_file.h"
+#include "cli/mesh_comparison.h"
 #include "cli/naming.h"
 #include "cli/query_options.h"
 #include "cli/text.h"
@@ -100,6 +101,17 @@ Json arraysJson(const FileInfo& info) {
   return json;
 }
 
+Json meshJson(const MeshInfo& mesh) {
+  Json json{{"vertexCells", mesh.vertices},
+            {"lines", mesh.lines},
+            {"faces", mesh.faces},
+            {"bytes", mesh.bytes},
+            {"missing", mesh.missing}};
+  json["arrays"] = Json::array();
+  for (const ArrayInfo& array : mesh.arrays) json["arrays"].push_back(descriptionJson(array));
+  return json;
+}
+
 Json metadataJson(const Metadata& metadata) {
   Json json = Json::object();
   if (!metadata.crs.empty()) json["crs"] = metadata.crs;
@@ -138,6 +150,7 @@ Json toJson(const FileInfo& info) {
   json["keepsOrder"] = info.keepsOrder;
   json["orderBytes"] = info.orderBytes;
   json["arrays"] = arraysJson(info);
+  if (!info.mesh.empty()) json["mesh"] = meshJson(info.mesh);
   json["metadata"] = metadataJson(info.metadata);
   return json;
 }
@@ -242,6 +255,17 @@ void printText(const std::string& name, const FileInfo& info) {
               << (l < info.wholeLayers ? "" : "  (not in this file)") << '\n';
   }
   printArrays(info);
+  if (!info.mesh.empty()) {
+    std::cout << "mesh       " << cellsText(info.mesh.vertices, info.mesh.lines, info.mesh.faces)
+              << " ("
+              << (info.mesh.missing ? "not in this file)"
+                                    : withCommas(info.mesh.bytes) + " bytes, with their arrays)")
+              << '\n';
+    for (const ArrayInfo& array : info.mesh.arrays) {
+      std::cout << "           " << oneLine(array.name, 40) << ", " << typeText(array)
+                << " a cell\n";
+    }
+  }
   if (info.keepsOrder) {
     std::cout << "order      as in the input (" << withCommas(info.orderBytes) << " bytes)\n";
   }

@@ -41,7 +41,7 @@ void refuseContent(const std::string& name, const ContentArguments& args,
   }
   if (named == 0) return;
   throw Error(ErrorCode::Unsupported,
-              name + ": has more than points and their arrays (" + list +
+              name + ": has more than points, faces and the points' arrays (" + list +
                   "), which this version cannot store; " +
                   (onlyFaces ? "--no-faces" : "--drop-other") +
                   " leaves that out, --positions-only everything but positions");
@@ -85,14 +85,18 @@ formats::Model readModelFile(const std::string& path, const std::string& formatN
   const formats::Format format = chooseInputFormat(formatName, path);
   InputFile input(path);
   return namingModel(input.name(),
-                     [&] { return formats::readModel(input.stream(), format, progress); });
+                     [&] { return formats::readModel(input.stream(), format, progress, true); });
 }
 
 ModelPoints::ModelPoints(const std::string& path, const std::string& formatName,
                          const ContentArguments& content, const ProgressCallback& progress)
-    : format_(chooseInputFormat(formatName, path)), input_(path), content_(content) {
+    : format_(chooseInputFormat(formatName, path)),
+      input_(path),
+      content_(content),
+      keepsMesh_(!content.positionsOnly && !content.noFaces) {
   stream_ = namingModel(
       input_.name(), [&] { return formats::openPointStream(input_.stream(), format_, progress); });
+  if (keepsMesh_) stream_->keepMesh();
   refuseOther();
   if (!content.positionsOnly) chooseFrom(stream_->info().arrays);
 }

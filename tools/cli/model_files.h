@@ -47,6 +47,9 @@ class ModelPoints final : public PointReader {
   /// What is to be stored beside points and arrays.
   Metadata metadata() const;
   bool ended() const { return ended_; }
+  /// Whether there may be cells that are to be stored, and these, once all points have been read.
+  bool mayHaveMesh() const { return keepsMesh_ && stream_->mayHaveMesh(); }
+  MeshCells takeMesh() { return stream_->takeMesh(); }
 
  private:
   void chooseFrom(const std::vector<ArrayDescription>& arrays);
@@ -56,6 +59,7 @@ class ModelPoints final : public PointReader {
   formats::Format format_;
   InputFile input_;
   const ContentArguments& content_;
+  bool keepsMesh_;
   bool ended_ = false;
   std::unique_ptr<formats::PointStream> stream_;
   /// The arrays that are kept, and which of the file's they are.

@@ -14,6 +14,7 @@
 #include "cli/array_comparison.h"
 #include "cli/commands.h"
 #include "cli/input_file.h"
+#include "cli/mesh_comparison.h"
 #include "cli/model_files.h"
 #include "cli/naming.h"
 #include "cli/nearest_distance.h"
@@ -59,6 +60,7 @@ struct Restored {
   std::vector<GridPoint> points;
   std::vector<ArrayValues> arrays;
   ArrayValues coordinates;  ///< empty unless the grid is one of the bits of floats
+  MeshCells mesh;
 
   void append(DecodedPoints&& tile) {
     if (info_.grid.form == Grid::Form::FloatBits) {
@@ -296,12 +298,31 @@ class ArrayCheck {
   PointTable held_;
 };
 
+/// Compares the cells that the file has with those of the original.
+std::string cellsCheck(const VerifyArguments& args, const FileInfo& info,
+                       const formats::Model& original, const GridFit& fit,
+                       const Restored& restored) {
+  if (info.mesh.empty()) return "";
+  std::vector<GridPoint> places = fit.points;
+  if (!fit.sourceIndex.empty()) {
+    places.assign(original.size(), GridPoint{});
+    for (std::size_t j = 0; j < fit.sourceIndex.size(); ++j) {
+      places[fit.sourceIndex[j]] = fit.points[j];
+    }
+  }
+  if (!sameCells({original.mesh, places}, {restored.mesh, restored.points})) {
+    throw Error(ErrorCode::Corrupt, args.input + ": does not hold the faces of " + args.against);
+  }
+  return " and " + cellsText(info.mesh.vertices, info.mesh.lines, info.mesh.faces);
+}
+
 std::string comparisonText(const VerifyArguments& args, const FileInfo& info,
                            const Restored& restored) {
   const formats::Model original = readOriginal(args);
   const GridFit fit = fitOriginal(args, info, original, restored.points);
   const std::string arrays = ArrayCheck(args, info, original, fit, restored).run();
-  return ", those of " + args.against + arrays + ", " + errorText(fit.exact, fit.maxError);
+  const std::string cells = cellsCheck(args, info, original, fit, restored);
+  return ", those of " + args.against + arrays + cells + ", " + errorText(fit.exact, fit.maxError);
 }
 
 void runVerify(const VerifyArguments& args) {
@@ -315,6 +336,13 @@ void runVerify(const VerifyArguments& args) {
     options.progress = bar.callback();
     options.threads = args.threads;
     naming(input.name(), [&] {
+      if (!decoder.info().mesh.empty()) {
+        DecodedPoints all = decoder.decode(options);
+        count = all.points.size();
+        restored.mesh = std::move(all.mesh);
+        restored.append(std::move(all));
+        return;
+      }
       decoder.decodeTiles(options, [&](DecodedPoints&& tile) {
         count += tile.points.size();
         if (!args.against.empty()) restored.append(std::move(tile));
@@ -325,6 +353,9 @@ void runVerify(const VerifyArguments& args) {
   std::string result = "every checksum holds, " + withCommas(count) + " points";
   if (!info.arrays.empty()) {
     result += " with " + formats::counted(info.arrays.size(), "array", "arrays");
+  }
+  if (!info.mesh.empty()) {
+    result += " and " + cellsText(info.mesh.vertices, info.mesh.lines, info.mesh.faces);
   }
   if (args.lossy) {
     result += distanceText(args, info.grid, restored.points);

@@ -9,6 +9,7 @@
 
 #include "bspc/arrays.h"
 #include "bspc/grid.h"
+#include "bspc/mesh.h"
 #include "bspc/point_set.h"
 #include "bspc/scalar_type.h"
 
@@ -53,9 +54,10 @@ struct Model : ModelInfo {
   std::vector<std::uint8_t> positions;
   /// The values of `arrays`, in that order.
   std::vector<ArrayValues> values;
+  MeshCells mesh;
 
   std::uint64_t size() const { return positions.size() / (3 * scalarSize(type)); }
-  /// Views positions and arrays; the model must outlive the view.
+  /// Views positions, arrays and cells; the model must outlive the view.
   PointSetView view() const;
 };
 
@@ -64,6 +66,8 @@ struct ModelLayout {
   ScalarType type = ScalarType::Float32;
   std::uint64_t points = 0;
   std::vector<ArrayDescription> arrays;
+  /// Cells that are written behind the points; may be null, and must outlive the writer.
+  const MeshCells* mesh = nullptr;
   Metadata metadata;
   /// Whether the points are in the order of the file that they once came from, all of them.
   bool keepsOrder = false;

@@ -62,9 +62,10 @@ std::unique_ptr<PointStream> openPointStream(std::istream& in, Format format,
   throw FormatError("there is no reader for this format");
 }
 
-Model readModel(std::istream& in, Format format, const ProgressCallback& progress) {
+Model readModel(std::istream& in, Format format, const ProgressCallback& progress, bool keepMesh) {
   constexpr std::size_t kBlock = std::size_t{1} << 16;
   const std::unique_ptr<PointStream> points = openPointStream(in, format, progress);
+  if (keepMesh) points->keepMesh();
   const std::size_t pointBytes = 3 * scalarSize(points->info().type);
   Model model;
   model.values = emptyArrays(points->info().arrays);
@@ -78,6 +79,7 @@ Model readModel(std::istream& in, Format format, const ProgressCallback& progres
     more = got == kBlock;
   }
   static_cast<ModelInfo&>(model) = points->info();
+  model.mesh = points->takeMesh();
   return model;
 }
 
@@ -87,6 +89,7 @@ void writeModel(std::ostream& out, Format format, const PointSetView& points,
   layout.type = points.type();
   layout.points = points.size();
   for (const ArrayView& array : points.arrays()) layout.arrays.push_back(array);
+  layout.mesh = points.mesh();
   ModelWriter writer(out, format, std::move(layout), progress);
   writer.append(points);
   writer.finish();

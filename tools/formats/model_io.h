@@ -23,9 +23,10 @@ std::optional<Format> formatFromPath(std::string_view path);
 std::unique_ptr<PointStream> openPointStream(std::istream& in, Format format,
                                              const ProgressCallback& progress = {});
 
-/// Reads a whole model with its arrays; the rest is as with openPointStream(), through which it
-/// reads.
-Model readModel(std::istream& in, Format format, const ProgressCallback& progress = {});
+/// Reads a whole model with its arrays, and its cells if `keepMesh` is set; the rest is as with
+/// openPointStream(), through which it reads.
+Model readModel(std::istream& in, Format format, const ProgressCallback& progress = {},
+                bool keepMesh = false);
 
 /// Writes points with their arrays to a stream opened in binary mode. Throws FormatError if the
 /// format cannot hold them or if the stream fails, Error(Cancelled) once `progress` asks to stop.

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "formats/array_tuples.h"
 #include "formats/position_text.h"
@@ -72,6 +73,7 @@ class ObjStream : public PointStream {
  public:
   explicit ObjStream(InputBuffer in) : in_(std::move(in)), text_(in_) {
     info_.type = kTextType;
+    mayHaveMesh_ = true;
     atVertex_ = nextVertex();
     if (atVertex_) lookForColour();
   }
@@ -80,9 +82,10 @@ class ObjStream : public PointStream {
     std::size_t done = 0;
     for (; done < count && atVertex_; ++done) {
       storePosition(positions, done, readVertex(values));
+      ++vertices_;
       atVertex_ = nextVertex();
     }
-    if (done < count && info_.otherContent.empty()) nameOtherContent();
+    if (done < count && !finished_) finish();
     return done;
   }
 
@@ -167,6 +170,45 @@ class ObjStream : public PointStream {
     }
   }
 
+  void finish() {
+    for (const Cells* cells : {&mesh_.faces, &mesh_.lines, &mesh_.vertices}) {
+      for (const std::uint32_t vertex : cells->indices) {
+        if (vertex < vertices_) continue;
+        throw FormatError("a face, line or point element names vertex " +
+                          grouped(std::uint64_t{vertex} + 1) + " of only " + grouped(vertices_));
+      }
+    }
+    nameOtherContent();
+    finished_ = true;
+  }
+
+  /// The cells that statements of this keyword bring, if they are wanted.
+  Cells* cellsOf(std::string_view keyword) {
+    if (!keepsMesh_) return nullptr;
+    if (keyword == "f" || keyword == "fo") return &mesh_.faces;
+    if (keyword == "l") return &mesh_.lines;
+    return keyword == "p" ? &mesh_.vertices : nullptr;
+  }
+
+  /// References such as 7, 7/1/2 or -1; what stands behind a slash belongs to other content.
+  void readCell(Cells& cells) {
+    if (continued_) text_.fail("a face that goes on in the next line is not supported");
+    cell_.clear();
+    std::string_view token;
+    while (text_.nextToken(token)) {
+      const std::string_view number = token.substr(0, token.find('/'));
+      const auto reference =
+          text_.number<std::int64_t>(number, [] { return std::string("a vertex of a face"); });
+      const std::int64_t vertex =
+          reference < 0 ? static_cast<std::int64_t>(vertices_) + reference : reference - 1;
+      if (vertex < 0 || vertex > kMostVertices) {
+        text_.fail("there is no vertex " + quoted(number) + " here");
+      }
+      cell_.push_back(static_cast<std::uint32_t>(vertex));
+    }
+    cells.add(cell_);
+  }
+
   void countStatement(std::string_view keyword) {
     const auto* const found =
         std::find_if(kStatements.begin(), kStatements.end(),
@@ -174,7 +216,11 @@ class ObjStream : public PointStream {
     if (found == kStatements.end()) {
       text_.fail("expected a statement of an OBJ file such as v, found " + quoted(keyword));
     }
-    ++counts_[static_cast<std::size_t>(found - kStatements.begin())];
+    if (Cells* cells = cellsOf(keyword)) {
+      readCell(*cells);
+    } else {
+      ++counts_[static_cast<std::size_t>(found - kStatements.begin())];
+    }
   }
 
   void nameOtherContent() {
@@ -205,6 +251,10 @@ class ObjStream : public PointStream {
   std::array<std::uint64_t, kStatements.size()> counts_{};
   std::uint64_t colours_ = 0;
   std::uint64_t weights_ = 0;
+  static constexpr std::int64_t kMostVertices = 0xFFFFFFEF;
+  std::uint64_t vertices_ = 0;
+  bool finished_ = false;
+  std::vector<std::uint32_t> cell_;
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "formats/obj_writer.h"
 
 #include "formats/array_columns.h"
+#include "formats/mesh_lines.h"
 #include "formats/point_lines.h"
 
 namespace bspc::formats {
@@ -16,7 +17,7 @@ bool areColours(const std::vector<ArrayDescription>& arrays) {
 
 class ObjWriter : public PointWriter {
  public:
-  explicit ObjWriter(const ModelLayout& layout) {
+  explicit ObjWriter(const ModelLayout& layout) : mesh_(layout.mesh) {
     if (!areColours(layout.arrays)) {
       requireNoArrays(layout.arrays, "an OBJ file");
     } else {
@@ -30,8 +31,16 @@ class ObjWriter : public PointWriter {
     writePointLines(out, points, columns_, {"v ", ' ', false});
   }
 
+  void finish(OutputBuffer& out) override {
+    if (mesh_ == nullptr) return;
+    writeCellLines(out, mesh_->vertices, {"p", false, 1});
+    writeCellLines(out, mesh_->lines, {"l", false, 1});
+    writeCellLines(out, mesh_->faces, {"f", false, 1});
+  }
+
  private:
   std::vector<ArrayColumn> columns_;
+  const MeshCells* mesh_;
 };
 
 }  // namespace

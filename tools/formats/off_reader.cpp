@@ -24,6 +24,7 @@ class OffStream : public PointStream {
     vertices_ = expectCount("vertices");
     faces_ = expectCount("faces");
     skipNumbers("the number of edges");
+    mayHaveMesh_ = faces_ > 0;
     if (vertices_ > 0) lookForArrays();
     // In text a vertex takes six bytes at the least.
     reservable_ = in_.reservable(vertices_, 6);
@@ -41,7 +42,7 @@ class OffStream : public PointStream {
  private:
   void finish() {
     if (finished_) return;
-    for (index_ = 0; index_ < faces_; ++index_) skipFace();
+    for (index_ = 0; index_ < faces_; ++index_) readFace();
     index_ = vertices_;
     std::string_view token;
     if (next(token)) text_.fail("trailing data after the last face: " + quoted(token));
@@ -158,11 +159,12 @@ class OffStream : public PointStream {
   }
 
   /// Its number of corners, their vertices, perhaps a colour to the end of the line.
-  void skipFace() {
+  void readFace() {
     std::string_view token;
     if (!next(token)) failShort("face", faces_);
     const auto corners = text_.number<std::uint64_t>(
         token, [&] { return "the number of corners of " + place("face", faces_); });
+    face_.clear();
     for (std::uint64_t i = 0; i < corners; ++i) {
       if (!next(token)) failShort("face", faces_);
       const auto vertex = text_.number<std::uint64_t>(
@@ -171,7 +173,10 @@ class OffStream : public PointStream {
         text_.fail("a corner of " + place("face", faces_) + " is vertex " + grouped(vertex) +
                    ", counted from 0, of only " + grouped(vertices_));
       }
+      if (keepsMesh_) face_.push_back(static_cast<std::uint32_t>(vertex));
     }
+    if (keepsMesh_) mesh_.faces.add(face_);
+    if (text_.nextToken(token)) ++colouredFaces_;
     while (text_.nextToken(token)) {
     }
   }
@@ -191,7 +196,11 @@ class OffStream : public PointStream {
       content.push_back(
           {"further numbers of " + counted(further_, "vertex", "vertices"), Kind::Rest});
     }
-    if (faces_ > 0) content.push_back({counted(faces_, "face", "faces"), Kind::Connectivity});
+    if (!keepsMesh_) {
+      if (faces_ > 0) content.push_back({counted(faces_, "face", "faces"), Kind::Connectivity});
+    } else if (colouredFaces_ > 0) {
+      content.push_back({"colours of " + counted(colouredFaces_, "face", "faces"), Kind::Rest});
+    }
   }
 
   InputBuffer in_;
@@ -203,6 +212,8 @@ class OffStream : public PointStream {
   std::uint64_t vertices_ = 0;
   std::uint64_t faces_ = 0;
   std::uint64_t further_ = 0;
+  std::uint64_t colouredFaces_ = 0;
+  std::vector<std::uint32_t> face_;
   std::uint64_t index_ = 0;
 };
 

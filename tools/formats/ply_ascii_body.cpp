@@ -1,4 +1,5 @@
 #include <string>
+#include <vector>
 
 #include "formats/array_tuples.h"
 #include "formats/ply_body.h"
@@ -25,6 +26,26 @@ class AsciiBody : public PlyBody {
     if (element.properties.empty()) return;
     for (index_ = 0; index_ < element.count; ++index_) {
       for (const PlyProperty& property : element.properties) skipProperty(property);
+    }
+  }
+
+  void readLists(const PlyElement& element, std::size_t property, Cells& cells) override {
+    element_ = &element;
+    for (index_ = 0; index_ < element.count; ++index_) {
+      for (std::size_t p = 0; p < element.properties.size(); ++p) {
+        if (p != property) {
+          skipProperty(element.properties[p]);
+          continue;
+        }
+        cell_.clear();
+        readItems(element.properties[p], [&](const std::uint64_t* bytes, ScalarType type) {
+          visitScalar(type, [&](auto zero) {
+            const auto number = static_cast<double>(loadScalar<decltype(zero)>(bytes));
+            cell_.push_back(plyVertex(header_, number, element, index_));
+          });
+        });
+        cells.add(cell_);
+      }
     }
   }
 
@@ -61,6 +82,13 @@ class AsciiBody : public PlyBody {
   void skipProperty(const PlyProperty& property) {
     std::uint64_t bytes = 0;
     if (!property.isList) return readNumber(property.type, property, &bytes);
+    readItems(property, [](const std::uint64_t* /*bytes*/, ScalarType /*type*/) {});
+  }
+
+  /// Calls visit() with each number of a list.
+  template <class Visit>
+  void readItems(const PlyProperty& property, Visit visit) {
+    std::uint64_t bytes = 0;
     readNumber(property.countType, property, &bytes);
     std::uint64_t count = 0;
     visitScalar(property.countType, [&](auto zero) {
@@ -68,7 +96,10 @@ class AsciiBody : public PlyBody {
       if (value < zero) text_.fail("a negative number of items for " + describe(property));
       count = static_cast<std::uint64_t>(value);
     });
-    for (std::uint64_t i = 0; i < count; ++i) readNumber(property.type, property, &bytes);
+    for (std::uint64_t i = 0; i < count; ++i) {
+      readNumber(property.type, property, &bytes);
+      visit(&bytes, property.type);
+    }
   }
 
   /// Stores the next number as `type` at `to`.
@@ -94,6 +125,7 @@ class AsciiBody : public PlyBody {
   std::vector<ColumnTarget> targets_;
   const PlyElement* element_ = nullptr;
   std::uint64_t index_ = 0;
+  std::vector<std::uint32_t> cell_;
 };
 
 }  // namespace

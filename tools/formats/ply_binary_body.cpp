@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <string>
 
@@ -54,6 +55,14 @@ class BinaryBody : public PlyBody {
     }
   }
 
+  void readLists(const PlyElement& element, std::size_t property, Cells& cells) override {
+    element_ = &element;
+    wanted_ = property;
+    cells_ = &cells;
+    for (std::uint64_t i = 0; i < element.count; ++i) readRecord(i, nullptr, {});
+    cells_ = nullptr;
+  }
+
   void readVertices(std::uint64_t first, std::size_t count, std::uint8_t* positions,
                     Span<ArrayValues> values) override {
     element_ = &header_.vertices();
@@ -90,7 +99,7 @@ class BinaryBody : public PlyBody {
     for (std::size_t p = 0; p < element_->properties.size(); ++p) {
       const PlyProperty& property = element_->properties[p];
       if (property.isList) {
-        skipList(index, property);
+        readList(index, property, cells_ != nullptr && p == wanted_);
         continue;
       }
       const std::size_t bytes = scalarSize(property.type);
@@ -107,7 +116,7 @@ class BinaryBody : public PlyBody {
     }
   }
 
-  void skipList(std::uint64_t index, const PlyProperty& property) {
+  void readList(std::uint64_t index, const PlyProperty& property, bool wanted) {
     const std::size_t countBytes = scalarSize(property.countType);
     require(countBytes, index);
     const std::uint64_t count = visitScalar(property.countType, [&](auto zero) {
@@ -123,11 +132,26 @@ class BinaryBody : public PlyBody {
     });
     in_.consume(countBytes);
     const std::uint64_t itemBytes = scalarSize(property.type);
+    if (wanted) return readCell(index, property, count);
     // Beyond 2^60 items no file is long enough, and their bytes could not be counted.
     if (count > (std::uint64_t{1} << 60) || in_.skip(count * itemBytes) < count * itemBytes) {
       in_.skip(UINT64_MAX);
       failShort(index);
     }
+  }
+
+  void readCell(std::uint64_t index, const PlyProperty& property, std::uint64_t count) {
+    const std::size_t bytes = scalarSize(property.type);
+    cell_.clear();
+    for (std::uint64_t i = 0; i < count; ++i) {
+      require(bytes, index);
+      double number = 0;
+      const ScalarSource source{in_.data(), property.type, 0, swapped_};
+      const bool exact = convertScalars(source, {&number, ScalarType::Float64, 0}, 1) == 1;
+      cell_.push_back(plyVertex(header_, exact ? number : -1, *element_, index));
+      in_.consume(bytes);
+    }
+    cells_->add(cell_);
   }
 
   void skipRecords() {
@@ -166,6 +190,9 @@ class BinaryBody : public PlyBody {
   RecordLayout layout_;
   RecordReader records_;
   const PlyElement* element_ = nullptr;
+  Cells* cells_ = nullptr;  ///< where the lists of property wanted_ go
+  std::size_t wanted_ = 0;
+  std::vector<std::uint32_t> cell_;
 };
 
 }  // namespace
@@ -178,6 +205,16 @@ std::string plyPlace(const PlyElement& element, std::uint64_t index) {
   const bool plain = element.name == "vertex" || element.name == "face" || element.name == "edge";
   return (plain ? element.name : "element " + quoted(element.name)) + " " + grouped(index + 1) +
          " of " + grouped(element.count);
+}
+
+std::uint32_t plyVertex(const PlyHeader& header, double number, const PlyElement& element,
+                        std::uint64_t index) {
+  if (number >= 0 && number < static_cast<double>(header.vertices().count) &&
+      number == std::floor(number) && number < 4294967279.0) {
+    return static_cast<std::uint32_t>(number);
+  }
+  throw FormatError(plyPlace(element, index) + " has a vertex that is none of the " +
+                    grouped(header.vertices().count) + " that there are, counted from 0");
 }
 
 std::vector<std::size_t> plyAxes(const PlyHeader& header) {

@@ -227,11 +227,31 @@ std::uint64_t PlyElement::leastBytes(PlyEncoding encoding) const {
 
 PlyHeader readPlyHeader(TextScanner& text) { return HeaderReader(text).read(); }
 
-std::vector<OtherContent> otherPlyContent(const PlyHeader& header) {
+std::optional<std::size_t> plyFaceList(const PlyElement& element) {
+  if (element.name != "face") return std::nullopt;
+  for (std::size_t p = 0; p < element.properties.size(); ++p) {
+    const PlyProperty& property = element.properties[p];
+    if (property.isList && (property.name == "vertex_indices" || property.name == "vertex_index")) {
+      return p;
+    }
+  }
+  return std::nullopt;
+}
+
+std::vector<OtherContent> otherPlyContent(const PlyHeader& header, bool keepsFaces) {
   std::vector<OtherContent> content;
   for (std::size_t e = 0; e < header.elements.size(); ++e) {
     const PlyElement& element = header.elements[e];
     if (element.count == 0) continue;
+    const std::optional<std::size_t> faces = plyFaceList(element);
+    if (keepsFaces && faces) {
+      for (std::size_t p = 0; p < element.properties.size(); ++p) {
+        if (p == *faces) continue;
+        content.push_back(
+            {"face property " + quoted(element.properties[p].name), OtherContent::Kind::Rest});
+      }
+      continue;
+    }
     if (e != header.vertexElement) {
       const bool plain = element.name == "face" || element.name == "edge";
       const std::string name = plain ? element.name : quoted(element.name) + " element";

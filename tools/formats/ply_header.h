@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -56,7 +57,11 @@ struct PlyHeader {
 /// it. Throws FormatError.
 PlyHeader readPlyHeader(TextScanner& text);
 
-/// What a file with this header holds that neither positions nor arrays are.
-std::vector<OtherContent> otherPlyContent(const PlyHeader& header);
+/// Which list property of an element has the vertices of faces; none if it is no element of faces.
+std::optional<std::size_t> plyFaceList(const PlyElement& element);
+
+/// What a file with this header holds that neither positions nor arrays are, nor faces if they are
+/// kept.
+std::vector<OtherContent> otherPlyContent(const PlyHeader& header, bool keepsFaces);
 
 }  // namespace bspc::formats

@@ -19,12 +19,20 @@ class PlyStream : public PointStream {
     const bool isText = header_.encoding == PlyEncoding::Ascii;
     body_ = isText ? asciiPlyBody(text_, header_) : binaryPlyBody(in_, header_);
     info_.type = header_.positionType;
-    info_.otherContent = otherPlyContent(header_);
+    info_.otherContent = otherPlyContent(header_, false);
+    for (const PlyElement& element : header_.elements) {
+      mayHaveMesh_ = mayHaveMesh_ || (element.count > 0 && plyFaceList(element));
+    }
     info_.arrays = arraysOf(header_.arrays);
     keepLines("ply.comment", header_.comments);
     keepLines("ply.obj_info", header_.infos);
     const PlyElement& vertices = header_.vertices();
     reservable_ = in_.reservable(vertices.count, vertices.leastBytes(header_.encoding));
+  }
+
+  void keepMesh() override {
+    PointStream::keepMesh();
+    info_.otherContent = otherPlyContent(header_, true);
   }
 
   std::size_t read(std::uint8_t* positions, Span<ArrayValues> values, std::size_t count) override {
@@ -47,7 +55,14 @@ class PlyStream : public PointStream {
 
   void skipUpTo(std::size_t element) {
     for (; element_ < element; ++element_) {
-      if (element_ != header_.vertexElement) body_->skip(header_.elements[element_]);
+      if (element_ == header_.vertexElement) continue;
+      const PlyElement& passed = header_.elements[element_];
+      const std::optional<std::size_t> faces = plyFaceList(passed);
+      if (keepsMesh_ && faces) {
+        body_->readLists(passed, *faces, mesh_.faces);
+      } else {
+        body_->skip(passed);
+      }
     }
   }
 

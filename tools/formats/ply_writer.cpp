@@ -6,6 +6,7 @@
 
 #include "formats/array_columns.h"
 #include "formats/las_records.h"
+#include "formats/mesh_lines.h"
 #include "formats/record_writer.h"
 
 namespace bspc::formats {
@@ -59,9 +60,16 @@ class PlyWriter : public PointWriter {
  public:
   explicit PlyWriter(const ModelLayout& layout)
       : points_(layout.points),
+        mesh_(layout.mesh),
         comments_(metadataEntry(layout.metadata, "ply.comment")),
         infos_(metadataEntry(layout.metadata, "ply.obj_info")) {
     requireNumbers(layout.arrays, "a PLY file");
+    requireFacesOnly(layout.mesh, "a PLY file");
+    if (mesh_ != nullptr) {
+      for (std::size_t i = 0; i < mesh_->faces.size(); ++i) {
+        largeFaces_ = largeFaces_ || mesh_->faces[i].size() > 255;
+      }
+    }
     for (std::size_t k = 0; k < 3; ++k) {
       add({std::string(1, "xyz"[k]), RecordField::kPosition, k, plyType(layout.type), 0});
     }
@@ -82,11 +90,30 @@ class PlyWriter : public PointWriter {
     for (const RecordField& field : fields_) {
       text += std::string("property ") + plyName(field.type) + ' ' + field.name + '\n';
     }
+    if (mesh_ != nullptr && !mesh_->faces.empty()) {
+      text += "element face " + std::to_string(mesh_->faces.size()) + "\nproperty list " +
+              (largeFaces_ ? "uint" : "uchar") + " uint vertex_indices\n";
+    }
     text += "end_header\n";
   }
 
   void append(OutputBuffer& out, const PointSetView& points) override {
     writeRecords(out, points, fields_, recordBytes_, "a PLY file");
+  }
+
+  void finish(OutputBuffer& out) override {
+    if (mesh_ == nullptr) return;
+    const auto append = [&out](std::uint64_t number, unsigned bytes) {
+      for (unsigned b = 0; b < bytes; ++b) {
+        out.text() += static_cast<char>(static_cast<unsigned char>(number >> (8 * b)));
+      }
+    };
+    for (std::size_t i = 0; i < mesh_->faces.size(); ++i) {
+      const Span<const std::uint32_t> face = mesh_->faces[i];
+      append(face.size(), largeFaces_ ? 4 : 1);
+      for (const std::uint32_t vertex : face) append(vertex, 4);
+      out.advance(i, mesh_->faces.size());
+    }
   }
 
  private:
@@ -97,6 +124,8 @@ class PlyWriter : public PointWriter {
   }
 
   std::uint64_t points_;
+  const MeshCells* mesh_;
+  bool largeFaces_ = false;
   std::string comments_;
   std::string infos_;
   std::vector<RecordField> fields_;

@@ -2,8 +2,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "bspc/arrays.h"
+#include "bspc/mesh.h"
 #include "bspc/span.h"
 #include "formats/model.h"
 
@@ -32,12 +34,23 @@ class PointStream {
   /// complete only once read() has returned fewer points than it was asked for.
   const ModelInfo& info() const { return info_; }
 
+  /// Asks for the cells of meshes too, before the first read(); otherContent then does not name
+  /// those that could be taken.
+  virtual void keepMesh() { keepsMesh_ = true; }
+  /// Whether the file may have cells; the formats of point sets never do.
+  bool mayHaveMesh() const { return mayHaveMesh_; }
+  /// The cells, once read() has returned fewer points than it was asked for.
+  MeshCells takeMesh() { return std::move(mesh_); }
+
   /// For how many points there may be memory set aside: as many as the header claims, but never
   /// more than the file has bytes for; 0 if nothing is known.
   std::size_t reservable() const { return reservable_; }
 
  protected:
   ModelInfo info_;
+  bool keepsMesh_ = false;
+  bool mayHaveMesh_ = false;
+  MeshCells mesh_;
   std::size_t reservable_ = 0;
 };
 
