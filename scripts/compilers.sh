@@ -53,6 +53,9 @@ settings=(
   "--method kd --bits 12 --stop-level 20"
   "--method octree --bits 16 --layers 3"
   "--method gencode --bits 16 --layers 3"
+  "--effort 5 --bits 12"
+  "--effort 7 --bits 16 --layers 3"
+  "--effort 9 --bits 20"
 )
 
 work=$root/work

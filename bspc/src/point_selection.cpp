@@ -74,7 +74,7 @@ std::uint64_t memoryOf(const DecodedPoints& points) {
       (points.counts.capacity() + points.cellIds.capacity()) * 8;
   for (const ArrayValues& array : points.arrays) {
     bytes += array.values.capacity();
-    for (const std::string& text : array.strings) bytes += sizeof text + text.size();
+    for (const std::string& text : array.strings) bytes += sizeof(std::string) + text.size();
   }
   return bytes;
 }

@@ -218,7 +218,7 @@ class Info(CommandTest):
         self.assertEqual(info["scalarType"], "float32")
         self.assertEqual(info["step"], [1, 1, 1])
         self.assertEqual(info["bounds"], [[0, 4095]] * 3)
-        self.assertEqual((info["methods"], info["tiles"]), ({"fast": 1}, 1))
+        self.assertEqual((info["methods"], info["tiles"]), ({"predictive": 1}, 1))
         self.assertEqual(info["wholeLayers"], 3)
         self.assertEqual(len(info["layers"]), 3)
         self.assertEqual(info["layers"][2]["points"], 6002)
@@ -229,7 +229,7 @@ class Info(CommandTest):
         write_ply(self.path("a.ply"), lattice_cloud(6000))
         self.succeed("encode", "a.ply", "a.bspc", "--layout", "streaming")
         text = self.succeed("info", "a.bspc")
-        for piece in (b"a.bspc", b"streaming", b"6,000", b"float32", b"fast"):
+        for piece in (b"a.bspc", b"streaming", b"6,000", b"float32", b"predictive"):
             self.assertIn(piece, text)
 
 

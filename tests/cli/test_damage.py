@@ -88,7 +88,7 @@ class Partial(DamageTest):
 
     def cut_in_layer(self, layer):
         """Keeps the layers before this one and half of it; returns what `info` says of the whole."""
-        good = self.encode("--layers", "4")
+        good = self.encode("--layers", "4", "--effort", "2")
         info = self.info("good.bspc")
         missing = sum(entry["bytes"] for entry in info["layers"][layer + 1 :])
         size = len(good) - missing - info["layers"][layer]["bytes"] // 2

@@ -34,7 +34,8 @@ struct EncodeArguments {
   unsigned bits = 0;
   double precision = 0;
   bool exact = false;
-  std::optional<unsigned> effort;
+  std::string effort = "auto";
+  double seconds = 0;
   unsigned layers = 0;
   std::uint64_t tilePoints = 0;
   unsigned threads = 0;
@@ -70,16 +71,21 @@ GridRequest gridRequest(const EncodeArguments& args) {
   return request;
 }
 
-void checkEffort(const EncodeArguments& args) {
-  if (!args.effort || args.method.empty()) return;
+/// Empty for the encoder's choice.
+std::optional<unsigned> effortOf(const EncodeArguments& args) {
+  if (args.effort == "auto") return std::nullopt;
+  const auto effort = static_cast<unsigned>(args.effort[0] - '0');
+  if (args.seconds != 0) throw UsageError("--seconds chooses an effort; leave --effort out");
+  if (args.method.empty()) return effort;
   const bool fast = args.method == methodName(Method::Fast);
   if (!fast && args.method != methodName(Method::Predictive)) {
     throw UsageError("method " + args.method + " has no --effort; leave one of the two out");
   }
-  if (fast != (*args.effort <= 4)) {
-    throw UsageError("--effort " + std::to_string(*args.effort) + " is not one of method " +
-                     args.method + ": 1 to 4 are method fast, 5 to 9 method predictive");
+  if (fast != (effort <= 4)) {
+    throw UsageError("--effort " + args.effort + " is not one of method " + args.method +
+                     ": 1 to 4 are method fast, 5 to 9 method predictive");
   }
+  return effort;
 }
 
 EncodeOptions encodeOptions(const EncodeArguments& args) {
@@ -88,8 +94,8 @@ EncodeOptions encodeOptions(const EncodeArguments& args) {
   }
   EncodeOptions options;
   options.grid = gridRequest(args);
-  options.effort = args.effort;
-  checkEffort(args);
+  options.effort = effortOf(args);
+  options.seconds = args.seconds;
   options.layers = args.layers;
   options.tilePoints = args.tilePoints;
   options.threads = args.threads;
@@ -269,10 +275,19 @@ void addEncodeCommand(CLI::App& app) {
       ->group("Coding");
   command
       ->add_option("--effort", args->effort,
-                   "1 (quickest) to 9 (smallest), default 2; 1 to 4 are method fast, 5 to 9 method "
-                   "predictive")
+                   "1 (quickest) to 9 (smallest), or auto, the default: 9 up to 20,000 points, 2 "
+                   "above; 1 to 4 are method fast, 5 to 9 method predictive")
       ->option_text("N")
-      ->check(CLI::Range(1U, 9U))
+      ->check([](const std::string& text) {
+        const bool digit = text.size() == 1 && text[0] >= '1' && text[0] <= '9';
+        return digit || text == "auto" ? std::string() : "must be 1 to 9 or auto";
+      })
+      ->group("Coding");
+  command
+      ->add_option("--seconds", args->seconds,
+                   "The greatest effort that takes about so long at most on one core")
+      ->option_text("S")
+      ->check(positive)
       ->group("Coding");
   command->add_option("--layers", args->layers, "Layers of detail, 1 to 32 (default: by size)")
       ->option_text("N")

@@ -50,7 +50,7 @@ ArrayDescription originalIdsDescription() {
 
 ArrayDescription ArraySource::description(std::size_t array) const {
   if (array >= arrays_.size()) return originalIdsDescription();
-  return arrays_[array];
+  return static_cast<const ArrayDescription&>(arrays_[array]);
 }
 
 attributes::ArrayShape ArraySource::shape(std::size_t array) const {

@@ -17,7 +17,7 @@ std::uint64_t ArrayValues::tuples() const {
 
 ArrayView ArrayValues::view() const {
   ArrayView view;
-  static_cast<ArrayDescription&>(view) = *this;
+  static_cast<ArrayDescription&>(view) = static_cast<const ArrayDescription&>(*this);
   view.tuples = tuples();
   view.data = type == ScalarType::String ? static_cast<const void*>(strings.data())
                                          : static_cast<const void*>(values.data());

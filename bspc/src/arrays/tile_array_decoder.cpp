@@ -26,7 +26,7 @@ bool needsOrderChunk(const container::TileRecord& record, bool isLast,
 std::uint64_t memoryOf(const attributes::ArrayShape& shape, const attributes::ArrayValues& values) {
   std::uint64_t bytes = values.numbers.capacity();
   if (shape.type == ScalarType::String) {
-    for (const std::string& text : values.strings) bytes += sizeof text + text.size();
+    for (const std::string& text : values.strings) bytes += sizeof(std::string) + text.size();
   }
   return bytes;
 }

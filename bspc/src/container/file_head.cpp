@@ -122,6 +122,13 @@ std::vector<TileRecord> readTileTable(ByteReader& in, const TileLayout& layout,
   }
   std::vector<TileRecord> tiles;
   for (std::uint64_t i = 0; i < count; ++i) {
+    // A size and an offset for each column, which the file may not have.
+    if ((i + 1) * layout.columns() > limits.memoryBytes / (2 * sizeof(std::uint64_t))) {
+      throw Error(ErrorCode::LimitExceeded,
+                  "the table of tiles needs more memory than the limit of " +
+                      std::to_string(limits.memoryBytes) +
+                      " bytes; raise the limit if the file is to be trusted");
+    }
     const std::size_t start = in.position();
     tiles.push_back(readTileRecord(in, layout));
     if (recordSizes != nullptr) recordSizes->push_back(in.position() - start);

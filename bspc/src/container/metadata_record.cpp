@@ -1,5 +1,6 @@
 #include "container/metadata_record.h"
 
+#include <algorithm>
 #include <set>
 #include <string>
 
@@ -34,6 +35,10 @@ void readValues(ByteReader& in, ArrayValues& array) {
   }
   const ByteView bytes = in.bytes(count * arrayValueSize(array.type));
   array.values.assign(bytes.begin(), bytes.end());
+  const bool isBit = array.type == ScalarType::Bit;
+  if (isBit && std::any_of(bytes.begin(), bytes.end(), [](std::uint8_t b) { return b > 1; })) {
+    in.fail("the field array \"" + array.name + "\" has bits that are neither 0 nor 1");
+  }
 }
 
 }  // namespace

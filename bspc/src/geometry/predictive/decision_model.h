@@ -171,6 +171,7 @@ class DecisionModel {
 
   static constexpr unsigned kInputs = 32;
   static constexpr float kWeight = 0.12F;
+  static constexpr float kLayeredWeight = 0.06F;
   static constexpr unsigned kCounterAge = 60;
   static constexpr unsigned kSideSets = 2 * kSideKinds * kSizes * 3;
   static constexpr unsigned kSidesPerPhase = kSideKinds * kMasses * kErrors;
@@ -184,6 +185,14 @@ class DecisionModel {
       kInputs,
       kWeight,
       {},
+      kCounterAge};
+  entropy::LayeredMixer<4> layeredMixer_{
+      {kSideSets + kSideKinds * 3 * kPhaseOpens, 2 * kSideKinds* kDistances,
+       kSideKinds* kMasses* kOpens, kSidesPerPhase + kSideKinds},
+      2 * kSideKinds,
+      kInputs,
+      kLayeredWeight,
+      {0.03F, 200, 0.005F},
       kCounterAge};
   entropy::LogisticMixer<2> countMixer_{{2 * kCounts, kCounts}, kInputs, kWeight, {}, kCounterAge};
   entropy::LogisticMixer<2> shareMixer_{
@@ -216,7 +225,13 @@ bool DecisionModel::codeSide(Coder& coder, bool upper, SideKind kind, const Situ
     e.add(side_[11][(kind * kLogits + fine(p.phaseEvidence)) * kPhaseOpens + q.open]);
     first = kSideSets + (kind * 3 + q.axis) * kPhaseOpens + q.open;
   }
-  return sideMixer_.code(coder, upper, e, {first, second});
+  if (!f.has(Features::kTwoLayers)) return sideMixer_.code(coder, upper, e, {first, second});
+  const unsigned about = phase * kSideKinds + kind;
+  const unsigned nearest = std::min(s.lowerDistance, s.upperDistance);
+  return layeredMixer_.code(
+      coder, upper, e,
+      {first, about * kDistances + nearest, (kind * kMasses + s.mass) * kOpens + s.open, second},
+      about);
 }
 
 inline void DecisionModel::addSideContexts(unsigned z, const Situation& s, const Question& q,

@@ -9,6 +9,7 @@ constexpr std::uint32_t kLean = Features::kQuadric | Features::kParallelograms |
                                 Features::kMirror | Features::kRangeImage;
 constexpr std::uint32_t kMiddle =
     kLean | Features::kSeparateKinds | Features::kNearest | Features::kManyContexts;
+// Efforts 8 and 9 have all flags.
 
 }  // namespace
 
@@ -29,7 +30,7 @@ Features featuresOf(unsigned effort) {
       break;
     case 7:
       f.flags = kMiddle;
-      f.nearPoints = 12;
+      f.nearPoints = 13;
       f.pairReach = 14;
       f.refit = Features::Refit::PerPoint;
       break;

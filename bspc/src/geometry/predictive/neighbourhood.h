@@ -9,7 +9,7 @@ inline namespace BSPC_LANE_SET {
 
 /// What is known around the cell at hand: single points, and cells that are still to be divided.
 struct Neighbourhood {
-  static constexpr unsigned kMost = 64;
+  static constexpr unsigned kMost = 104;
   static constexpr unsigned kRoom = kMost + 16;  ///< for points of the cell itself
   static constexpr std::uint32_t kCell = 0xFFFFFFFF;
   /// Where the padding lies; its square does not overflow.
