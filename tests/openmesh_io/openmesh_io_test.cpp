@@ -346,7 +346,24 @@ TEST(OpenMeshIo, RestoresRealModels) {
     SCOPED_TRACE(name);
     PolyMesh mesh;
     ASSERT_TRUE(OpenMesh::IO::read_mesh(mesh, (folder / (std::string(name) + ".off")).string()));
-    expectRoundTrip(mesh);
+    // These lie on no lattice, so they come back within float spacing; handles are kept to compare.
+    WriteSettings settings;
+    settings.encoding.keepOrder = true;
+    std::stringstream stream;
+    ASSERT_TRUE(writeMesh(mesh, stream, {}, settings));
+    PolyMesh restored;
+    Options options;
+    ASSERT_TRUE(readMesh(restored, stream, options));
+    ASSERT_EQ(restored.n_vertices(), mesh.n_vertices());
+    ASSERT_EQ(restored.n_faces(), mesh.n_faces());
+    for (const auto v : mesh.vertices()) {
+      const float room = 1e-5F * (1 + mesh.point(v).max_abs());
+      EXPECT_LE((restored.point(v) - mesh.point(v)).max_abs(), room);
+    }
+    for (const auto f : mesh.faces()) {
+      auto back = restored.cfv_iter(f);
+      for (auto v = mesh.cfv_iter(f); v.is_valid(); ++v, ++back) EXPECT_EQ(*back, *v);
+    }
   }
 }
 
