@@ -5,7 +5,9 @@ set(BSPC_VTK_MODULE_FILES
   "${CMAKE_CURRENT_SOURCE_DIR}/vtkBSPWriter/vtk.module"
 )
 
-set(BSPC_VTK_COMPONENTS CommonCore CommonDataModel CommonExecutionModel CommonMisc IOCore vtksys)
+set(BSPC_VTK_COMPONENTS
+  CommonCore CommonDataModel CommonExecutionModel CommonMisc FiltersSources IOCore vtksys
+)
 find_package(VTK 9.1 REQUIRED COMPONENTS ${BSPC_VTK_COMPONENTS})
 # The interpreter that VTK's own Python modules are made for is the one beside VTK.
 if(NOT Python3_EXECUTABLE)

@@ -1,6 +1,7 @@
 #include "vtkBSPReader/poly_data_builder.h"
 
 #include <vtkCellArray.h>
+#include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkIdTypeArray.h>
 #include <vtkNew.h>
@@ -18,6 +19,7 @@
 #include "bspc/error.h"
 #include "vtk_support/array_output.h"
 #include "vtk_support/field_data.h"
+#include "vtk_support/mesh_cells.h"
 
 namespace bspc::vtk {
 
@@ -56,7 +58,7 @@ vtkSmartPointer<vtkCellArray> oneVertexEach(vtkIdType points) {
   return cells;
 }
 
-void activate(vtkPointData* data, vtkAbstractArray* array, Semantic semantic) {
+void activate(vtkDataSetAttributes* data, vtkAbstractArray* array, Semantic semantic) {
   const char* name = array->GetName();
   switch (semantic) {
     case Semantic::Scalars:
@@ -78,6 +80,17 @@ void activate(vtkPointData* data, vtkAbstractArray* array, Semantic semantic) {
       return;
     case Semantic::None:
       return;
+  }
+}
+
+/// The cells with their arrays.
+void setMesh(const DecodedPoints& mesh, vtkPolyData* output) {
+  setCells(mesh.mesh, output);
+  for (const ArrayValues& values : mesh.cellArrays) {
+    const vtkSmartPointer<vtkAbstractArray> array = newArray(values);
+    appendValues(array, values);
+    output->GetCellData()->AddArray(array);
+    activate(output->GetCellData(), array, values.semantic);
   }
 }
 
@@ -151,7 +164,7 @@ void PolyDataBuilder::append(const DecodedPoints& tile) {
   if (counts_ != nullptr) appendIds(counts_, tile.counts);
 }
 
-void PolyDataBuilder::finish(vtkPolyData* output) {
+void PolyDataBuilder::finish(vtkPolyData* output, const DecodedPoints* mesh) {
   vtkNew<vtkPoints> points;
   points->SetData(coordinates_);
   points->Squeeze();
@@ -173,7 +186,11 @@ void PolyDataBuilder::finish(vtkPolyData* output) {
     made->Squeeze();
     data->AddArray(made);
   }
-  if (options_.vertices) output->SetVerts(oneVertexEach(output->GetNumberOfPoints()));
+  if (mesh != nullptr && !mesh->mesh.empty()) {
+    setMesh(*mesh, output);
+  } else if (options_.vertices) {
+    output->SetVerts(oneVertexEach(output->GetNumberOfPoints()));
+  }
   addMetadata(info_.metadata, output->GetFieldData());
 }
 

@@ -32,8 +32,9 @@ class PolyDataBuilder {
 
   /// Throws Error(LimitExceeded) if that would make the output larger than the options allow.
   void append(const DecodedPoints& tile);
-  /// Hands everything over to an empty poly data.
-  void finish(vtkPolyData* output);
+  /// Hands everything over to an empty poly data; with the cells of a mesh instead of vertices if
+  /// there are some.
+  void finish(vtkPolyData* output, const DecodedPoints* mesh = nullptr);
 
  private:
   void checkMemory(const DecodedPoints& tile);

@@ -67,6 +67,7 @@ class vtkBSPReader::vtkInternals {
 
  private:
   DecodeOptions OptionsOf(const FileInfo& info) const;
+  bool WantsMesh(const FileInfo& info) const;
   bool Aborted();
 
   vtkBSPReader* self_;
@@ -132,7 +133,21 @@ void vtkBSPReader::vtkInternals::Publish(const FileInfo& info, vtkInformation* o
   } else {
     outInfo->Remove(vtkStreamingDemandDrivenPipeline::BOUNDS());
   }
-  outInfo->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
+  // Cells come with the whole set only: the pipeline then gives it to the first piece.
+  if (WantsMesh(info)) {
+    outInfo->Remove(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST());
+  } else {
+    outInfo->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
+  }
+}
+
+/// Whether all points are read of a file that has cells for them.
+bool vtkBSPReader::vtkInternals::WantsMesh(const FileInfo& info) const {
+  const int finest = static_cast<int>(info.layers.size()) - 1;
+  const bool all = self_->LevelOfDetail < 0 || self_->LevelOfDetail == finest;
+  const vtkIdType most = self_->MaximumNumberOfPoints;
+  const bool fits = most == 0 || static_cast<vtkIdType>(info.points) <= most;
+  return !info.mesh.empty() && !info.mesh.missing && all && fits && !self_->UseBox;
 }
 
 DecodeOptions vtkBSPReader::vtkInternals::OptionsOf(const FileInfo& info) const {
@@ -167,6 +182,9 @@ void vtkBSPReader::vtkInternals::Read(Decoder& decoder, vtkInformation* outInfo,
   DecodeOptions options = OptionsOf(info);
   const unsigned level = decoder.cost(options).level;
   if (self_->GenerateCellIds) options.cellLevel = levelOrNone(self_->CellIdLevel).value_or(level);
+  const bool mesh = WantsMesh(info);
+  if (mesh && piece > 0) return;
+  if (mesh) pieces = 1;
   options = bspc::vtk::optionsOfPiece(decoder, options, static_cast<std::uint64_t>(piece),
                                       static_cast<std::uint64_t>(pieces));
   options.progress = [this](double share) {
@@ -185,6 +203,12 @@ void vtkBSPReader::vtkInternals::Read(Decoder& decoder, vtkInformation* outInfo,
   building.memoryBytes = memoryBytes(self_->MemoryLimit);
   bspc::vtk::PolyDataBuilder builder(info, building);
   try {
+    if (mesh) {
+      const bspc::DecodedPoints whole = decoder.decode(options);
+      builder.append(whole);
+      builder.finish(output, &whole);
+      return;
+    }
     decoder.decodeTiles(options, [&builder](bspc::DecodedPoints&& tile) { builder.append(tile); });
   } catch (const bspc::Error& error) {
     // Asked to stop: nothing has gone wrong, and there is no output.

@@ -11,8 +11,11 @@
  * After UpdateInformation() the number of points, their bounds, the levels of detail and the names
  * of the arrays are known; no point has been decoded for them.
  *
+ * The cells of a mesh, with their arrays, come with the whole set; parts of it (levels, boxes,
+ * budgets) are points only.
+ *
  * A file is read in pieces by tiles, such that pieces have about the same number of points; a file
- * of one tile is in one piece. On abort the output is empty.
+ * of one tile, or with cells, is in one piece. On abort the output is empty.
  *
  * @sa vtkBSPWriter
  */
@@ -83,7 +86,8 @@ class VTKBSPREADER_EXPORT vtkBSPReader : public vtkAbstractPolyDataReader {
 
   ///@{
   /**
-   * Make one vertex cell a point; without cells nothing is rendered. Default: on.
+   * Make one vertex cell a point, where there is no mesh; without cells nothing is rendered.
+   * Default: on.
    */
   vtkSetMacro(GenerateVertices, bool);
   vtkGetMacro(GenerateVertices, bool);

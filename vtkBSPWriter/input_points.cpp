@@ -16,10 +16,26 @@
 
 #include "bspc/error.h"
 #include "vtk_support/array_types.h"
+#include "vtk_support/mesh_cells.h"
 
 namespace bspc::vtk {
 
 namespace {
+
+/// Whether a mesh has nothing but vertices, which the reader makes by itself, and says nothing of
+/// them.
+bool hasImpliedCells(vtkPolyData* mesh) {
+  const vtkIdType others = mesh->GetNumberOfCells() - mesh->GetNumberOfVerts();
+  vtkCellData* data = mesh->GetCellData();
+  const bool ghosts = data->HasArray(vtkDataSetAttributes::GhostArrayName()) != 0;
+  return others == 0 && data->GetNumberOfArrays() == (ghosts ? 1 : 0);
+}
+
+bool hasGhosts(vtkDataSetAttributes* attributes) {
+  auto* ghosts = vtkUnsignedCharArray::SafeDownCast(
+      attributes->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()));
+  return ghosts != nullptr && ghosts->GetValueRange(0)[1] != 0;
+}
 
 void refuseCells(vtkPointSet* points) {
   vtkNew<vtkCellTypes> types;
@@ -30,15 +46,15 @@ void refuseCells(vtkPointSet* points) {
     throw Error(ErrorCode::Unsupported,
                 std::string("the input has cells of type ") +
                     vtkCellTypes::GetClassNameFromTypeId(type) +
-                    ", and only points can be stored; DropCells leaves cells out");
+                    ", and only those of poly data can be stored; vtkDataSetSurfaceFilter makes "
+                    "such of the surface, DropCells leaves cells out");
   }
   for (int i = 0; i < points->GetCellData()->GetNumberOfArrays(); ++i) {
     const char* name = points->GetCellData()->GetAbstractArray(i)->GetName();
     if (name != nullptr && std::string(name) == vtkDataSetAttributes::GhostArrayName()) continue;
-    throw Error(
-        ErrorCode::Unsupported,
-        "the input has the cell array \"" + std::string(name != nullptr ? name : "") +
-            "\", and only arrays of points can be stored; DropCells leaves cell arrays out");
+    throw Error(ErrorCode::Unsupported,
+                "the input has the cell array \"" + std::string(name != nullptr ? name : "") +
+                    "\", and only cells of poly data can have some; DropCells leaves them out");
   }
 }
 
@@ -86,7 +102,7 @@ std::string nameOf(vtkAbstractArray* array, Semantic semantic) {
     case Semantic::None:
       break;
   }
-  throw Error(ErrorCode::InvalidArgument, "a point array has no name; name it or remove it");
+  throw Error(ErrorCode::InvalidArgument, "an array has no name; name it or remove it");
 }
 
 }  // namespace
@@ -95,13 +111,35 @@ InputPoints::InputPoints(vtkDataObject* input, const Options& options) {
   if (auto* table = vtkTable::SafeDownCast(input)) {
     takeColumns(table);
   } else if (auto* points = vtkPointSet::SafeDownCast(input)) {
-    if (!options.dropCells) refuseCells(points);
     takePoints(points);
+    auto* mesh = vtkPolyData::SafeDownCast(points);
+    if (mesh != nullptr && !options.dropCells && !hasImpliedCells(mesh)) {
+      takeCells(mesh);
+    } else if (mesh == nullptr && !options.dropCells) {
+      refuseCells(points);
+    }
   } else {
     throw Error(ErrorCode::InvalidArgument, "the input is neither a point set nor a table");
   }
   leaveOutGhosts();
-  takeArrays(attributes_, options);
+  takePointArrays(options);
+}
+
+void InputPoints::takeCells(vtkPolyData* mesh) {
+  if (hasGhosts(mesh->GetPointData()) || hasGhosts(mesh->GetCellData())) {
+    throw Error(ErrorCode::Unsupported,
+                "the input has cells with ghosts; vtkRemoveGhosts takes ghosts away, DropCells "
+                "leaves cells out");
+  }
+  cells_ = meshCellsOf(mesh);
+  vtkCellData* data = mesh->GetCellData();
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i) {
+    vtkAbstractArray* array = data->GetAbstractArray(i);
+    const Semantic semantic = semanticOf(data, array);
+    const std::string name = nameOf(array, semantic);
+    if (name == vtkDataSetAttributes::GhostArrayName()) continue;
+    cellArrays_.emplace_back(array, name, semantic);
+  }
 }
 
 void InputPoints::takePoints(vtkPointSet* points) {
@@ -181,13 +219,13 @@ void InputPoints::leaveOutGhosts() {
   attributes_ = attributes;
 }
 
-void InputPoints::takeArrays(vtkDataSetAttributes* attributes, const Options& options) {
+void InputPoints::takePointArrays(const Options& options) {
   tolerances_ = options.tolerances;
-  for (int i = 0; i < attributes->GetNumberOfArrays(); ++i) {
-    vtkAbstractArray* array = attributes->GetAbstractArray(i);
+  for (int i = 0; i < attributes_->GetNumberOfArrays(); ++i) {
+    vtkAbstractArray* array = attributes_->GetAbstractArray(i);
     const char* name = array->GetName();
     if (name != nullptr && options.wantsArray && !options.wantsArray(name)) continue;
-    const Semantic semantic = semanticOf(attributes, array);
+    const Semantic semantic = semanticOf(attributes_, array);
     arrays_.emplace_back(array, nameOf(array, semantic), semantic);
   }
 }
@@ -202,6 +240,8 @@ PointSetView InputPoints::view() const {
     if (tolerance != tolerances_.end()) view.tolerance = tolerance->second;
     points.addArray(std::move(view));
   }
+  if (!cells_.empty()) points.setMesh(&cells_);
+  for (const ArrayInput& array : cellArrays_) points.addCellArray(array.view());
   return points;
 }
 

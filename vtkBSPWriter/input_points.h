@@ -3,6 +3,7 @@
 #include <vtkDataObject.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkPointSet.h>
+#include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkTable.h>
 
@@ -26,8 +27,10 @@ class InputPoints {
     std::map<std::string, double> tolerances;
   };
 
-  /// Throws Error: Unsupported for cells and arrays that cannot be stored; InvalidArgument for a
-  /// table without x, y and z, and for arrays without a name or of another length than the points.
+  /// Cells of poly data are taken, unless they are nothing but vertices without arrays, which need
+  /// not be stored. Throws Error: Unsupported for cells and arrays that cannot be stored;
+  /// InvalidArgument for a table without x, y and z, and for arrays without a name or of another
+  /// length than the points.
   InputPoints(vtkDataObject* input, const Options& options);
 
   PointSetView view() const;
@@ -35,14 +38,17 @@ class InputPoints {
  private:
   void takePoints(vtkPointSet* points);
   void takeColumns(vtkTable* table);
+  void takeCells(vtkPolyData* mesh);
   void setCoordinates(vtkDataArray* coordinates);
-  void takeArrays(vtkDataSetAttributes* attributes, const Options& options);
+  void takePointArrays(const Options& options);
   void leaveOutGhosts();
 
   vtkSmartPointer<vtkDataArray> coordinates_;
   vtkSmartPointer<vtkDataSetAttributes> attributes_;
   std::vector<ArrayInput> arrays_;
   std::map<std::string, double> tolerances_;
+  MeshCells cells_;
+  std::vector<ArrayInput> cellArrays_;
 };
 
 }  // namespace bspc::vtk

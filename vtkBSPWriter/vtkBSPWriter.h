@@ -8,9 +8,10 @@
  * come back bit for bit unless they are given a tolerance. The order of points is not kept unless
  * KeepOrder is on. Active normals, scalars, texture coordinates and ids are marked as such.
  *
- * Cells of one vertex need not be written: the reader makes them. Other cells, and arrays of cells,
- * are an error unless DropCells is on. Points that vtkGhostType marks as duplicates or hidden are
- * left out, since another piece of the data has them or nobody should see them.
+ * The vertices, lines and polygons of vtkPolyData are written with their arrays, unless there are
+ * vertices only, which the reader makes. Other cells are an error unless DropCells is on, and so
+ * are ghosts of a mesh. Points that vtkGhostType marks as duplicates or hidden are left out, since
+ * another piece of the data has them or nobody should see them.
  *
  * The file is written beside its place and renamed when it is whole. Write() returns 1 if that was
  * reached; on abort it returns 0, without an error code, and an older file stays as it was.
@@ -162,8 +163,7 @@ class VTKBSPWRITER_EXPORT vtkBSPWriter : public vtkWriter {
 
   ///@{
   /**
-   * Leave out cells that are no vertices, and arrays of cells, instead of refusing them. Default:
-   * off.
+   * Leave out all cells and their arrays. Default: off.
    */
   vtkSetMacro(DropCells, bool);
   vtkGetMacro(DropCells, bool);
