@@ -94,7 +94,7 @@ Bytes forged(const Bytes& good, const std::function<void(container::FileHead&)>&
   changeHead(head);
   MemorySink sink;
   container::writeProgressive(sink, head,
-                              [&](std::size_t t, std::size_t c) { return chunks[t][c]; });
+                              [&](std::size_t t, std::size_t c) { return chunks[t][c]; }, {});
   return sink.take();
 }
 
