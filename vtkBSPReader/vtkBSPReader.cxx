@@ -133,12 +133,7 @@ void vtkBSPReader::vtkInternals::Publish(const FileInfo& info, vtkInformation* o
   } else {
     outInfo->Remove(vtkStreamingDemandDrivenPipeline::BOUNDS());
   }
-  // Cells come with the whole set only: the pipeline then gives it to the first piece.
-  if (WantsMesh(info)) {
-    outInfo->Remove(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST());
-  } else {
-    outInfo->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
-  }
+  outInfo->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
 }
 
 /// Whether all points are read of a file that has cells for them.
@@ -183,7 +178,11 @@ void vtkBSPReader::vtkInternals::Read(Decoder& decoder, vtkInformation* outInfo,
   const unsigned level = decoder.cost(options).level;
   if (self_->GenerateCellIds) options.cellLevel = levelOrNone(self_->CellIdLevel).value_or(level);
   const bool mesh = WantsMesh(info);
-  if (mesh && piece > 0) return;
+  // Cells come with the whole set only, which is the first piece.
+  if (mesh && piece > 0) {
+    output->Initialize();
+    return;
+  }
   if (mesh) pieces = 1;
   options = bspc::vtk::optionsOfPiece(decoder, options, static_cast<std::uint64_t>(piece),
                                       static_cast<std::uint64_t>(pieces));

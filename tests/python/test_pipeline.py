@@ -127,7 +127,7 @@ class Pipeline(unittest.TestCase):
         self.assertEqual(foreground(image), 0)
 
     def test_a_preview_covers_the_same_place_with_fewer_points(self):
-        self.write(sphere(), NumberOfLevels=3)
+        self.write(sphere(), NumberOfLevels=3, Method="fast")
         reader = self.reader()
         reader.SetLevelOfDetail(1)
         preview = picture(reader, "preview.png")
