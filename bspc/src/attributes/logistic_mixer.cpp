@@ -28,7 +28,8 @@ LogisticTables::LogisticTables() {
     const std::uint32_t value =
         (kLogistic[entry] * (kSegment - part) + kLogistic[entry + 1] * part + kSegment / 2) /
         kSegment;
-    squash_[static_cast<std::size_t>(odds + kMaxOdds)] = static_cast<std::uint16_t>(value);
+    const int place = odds + kMaxOdds;
+    squash_[static_cast<std::size_t>(place)] = static_cast<std::uint16_t>(value);
   }
   // The inverse: the least odds whose probability reaches the middle of the twelve-bit step.
   int odds = -kMaxOdds;

@@ -15,7 +15,8 @@ class LogisticTables {
   static constexpr int kMaxOdds = 2047;
 
   std::uint32_t probability(int odds) const {
-    return squash_[static_cast<std::size_t>(std::clamp(odds, -kMaxOdds, kMaxOdds) + kMaxOdds)];
+    const int place = std::clamp(odds, -kMaxOdds, kMaxOdds) + kMaxOdds;
+    return squash_[static_cast<std::size_t>(place)];
   }
   /// Of a probability; its upper twelve bits count.
   int odds(std::uint32_t probability) const { return stretch_[probability >> 4]; }

@@ -89,6 +89,7 @@ class ResidualModels {
   }
 
   std::uint64_t codeMantissa(Coder& coder, std::uint64_t size, unsigned length, unsigned slot) {
+    if (length == 0) return 0;
     Mantissa& models = mantissas_[std::size_t{slot} * (bits_ + 1) + length];
     const unsigned below = length - 1;
     const unsigned modelled = std::min(below, kModelledBits);
