@@ -215,10 +215,11 @@ DecodedPoints Decoder::Impl::decode(const DecodeOptions& options) {
       query, options, [&all] { return all.bytes(); },
       [&all](DecodedPoints&& points) { all.append(std::move(points)); });
   DecodedPoints result = all.take();
-  if (query.tiles.empty())
+  if (query.tiles.empty()) {
     addArrays(query,
               DecodedTileArrays{std::vector<attributes::ArrayValues>(query.arrays.size()), {}},
               result);
+  }
   result.level = query.level;
   result.complete = query.complete;
   if (query.thin && result.points.size() > *options.maxPoints) {

@@ -92,7 +92,7 @@ class ResidualModels {
     if (length == 0) return 0;
     Mantissa& models = mantissas_[std::size_t{slot} * (bits_ + 1) + length];
     const unsigned below = length - 1;
-    const unsigned modelled = std::min(below, kModelledBits);
+    const unsigned modelled = below < kModelledBits ? below : kModelledBits;
     unsigned node = 1;
     for (unsigned i = 1; i <= modelled; ++i) {
       const bool bit = ((size >> (below - i)) & 1) != 0;

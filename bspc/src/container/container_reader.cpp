@@ -251,7 +251,7 @@ void ContainerReader::readTrailingBlocks(std::uint64_t offset, std::uint64_t end
 
 std::string ContainerReader::chunkName(std::size_t tile, std::size_t column) const {
   const std::size_t part = layout_.partOf(column);
-  const std::string of =
+  std::string of =
       "layer " + std::to_string(layout_.layerOf(column)) + " of tile " + std::to_string(tile);
   if (part == kGeometryPart) return of;
   if (part == kOrderPart) return "the order of the points of tile " + std::to_string(tile);

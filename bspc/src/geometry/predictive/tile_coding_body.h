@@ -199,8 +199,11 @@ inline EncodedTile encode(const TileInput& tile, const PointProgress& progress) 
   EncodedTile result;
   SortedPoints points(tile, progress);
   const auto count = static_cast<std::uint32_t>(tile.points.size());
-  std::vector<std::uint32_t> all(count);
-  std::iota(all.begin(), all.end(), 0U);
+  const auto all = [count] {
+    std::vector<std::uint32_t> indices(count);
+    std::iota(indices.begin(), indices.end(), 0U);
+    return indices;
+  };
   const unsigned effort = std::clamp(tile.wishes.effort, kLeastEffort, kMostEffort);
   const Features features = featuresOf(effort);
   const TileStructure structure = findStructure(points.all(), tile.extent, features);
@@ -216,7 +219,7 @@ inline EncodedTile encode(const TileInput& tile, const PointProgress& progress) 
           std::make_unique<Encoding>(features, tile.extent, gridBits(tile.extent), count, points);
       codePhases(coder, features, structure, tree->predictors().phases);
       tree->startSet(count);
-      if (!structure.isSpecial()) points.select(all);
+      if (!structure.isSpecial()) points.select(all());
     }
     if (layer + 1 < tile.layers) {
       // Cells would not go with mirrors and images, which are worth more than the coarse layers.
@@ -226,7 +229,7 @@ inline EncodedTile encode(const TileInput& tile, const PointProgress& progress) 
       result.coarse.push_back(summaryOf(*tree));
     } else if (tree->isUndivided()) {
       SetCoder<entropy::SymbolWriter, SortedPoints>(features, tile.extent, *tree, points)
-          .code(coder, structure, count, std::move(all));
+          .code(coder, structure, count, all());
     } else {
       tree->finalLayer(coder);
     }
