@@ -160,7 +160,7 @@ GridFit fitOriginal(const VerifyArguments& args, const FileInfo& info,
 ArrayValues keptTuples(const ArrayValues& array, const GridFit& fit) {
   if (fit.sourceIndex.empty()) return array;
   ArrayValues kept;
-  static_cast<ArrayDescription&>(kept) = array;
+  static_cast<ArrayDescription&>(kept) = static_cast<const ArrayDescription&>(array);
   const std::size_t bytes = array.components * arrayValueSize(array.type);
   for (const std::uint64_t i : fit.sourceIndex) {
     if (array.type == ScalarType::String) {
