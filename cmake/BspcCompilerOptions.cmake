@@ -20,6 +20,8 @@ target_compile_options(bspc_compiler_options INTERFACE
 if(BSPC_SANITIZE)
   target_compile_options(bspc_compiler_options INTERFACE
     -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
+    # g++ warns of members of empty std::optional in instrumented code.
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>
   )
   target_link_options(bspc_compiler_options INTERFACE -fsanitize=address,undefined)
 endif()

@@ -88,7 +88,7 @@ std::vector<ColumnSurvey> survey(InputBuffer& in, TextScanner& text, const XyzLa
   std::string prefix(in.data(), in.available());
   // A line that was cut off says nothing.
   if (!isAll) prefix.resize(std::min(prefix.rfind('\n'), prefix.size()));
-  std::istringstream stream(std::move(prefix));
+  std::istringstream stream(prefix);
   InputBuffer part(stream);
   TextScanner lines(part);
   while (nextXyzContent(lines, layout.separator)) surveyLine(lines, layout, surveys);
