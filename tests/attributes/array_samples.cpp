@@ -101,7 +101,8 @@ std::vector<SampleArray> sampleArrays(const std::vector<GridPoint>& points, std:
                            }));
   arrays.push_back(arrayOf("time", ScalarType::Float64, 1, points,
                            [](const GridPoint&, std::size_t i, Bytes& out) {
-                             append(out, 245370.417 + static_cast<double>(i / 3) * 0.0001);
+                             const std::size_t pulse = i / 3;
+                             append(out, 245370.417 + static_cast<double>(pulse) * 0.0001);
                            }));
   arrays.push_back(arrayOf("special floats", ScalarType::Float32, 2, points,
                            [&](const GridPoint& p, std::size_t, Bytes& out) {
@@ -140,8 +141,8 @@ std::vector<SampleArray> sampleArrays(const std::vector<GridPoint>& points, std:
   arrays.push_back(sampleNormals(points));
   SampleArray names{"few strings", ArrayShape{ScalarType::String, 2, Semantic::None}, {}};
   SampleArray texts{"many strings", ArrayShape{ScalarType::String, 1, Semantic::None}, {}};
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    names.values.strings.emplace_back(wave(points[i], 300) > 0 ? "hill" : "");
+  for (const GridPoint& point : points) {
+    names.values.strings.emplace_back(wave(point, 300) > 0 ? "hill" : "");
     names.values.strings.emplace_back("class " + std::to_string(random() % 5));
     texts.values.strings.emplace_back(std::to_string(random()) + std::string(random() % 9, 'x'));
   }
