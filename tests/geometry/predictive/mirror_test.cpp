@@ -85,9 +85,12 @@ TEST(MirrorMatches, EveryOtherPointIsACopyOrLeftOnce) {
     ++copies;
     const GridPoint& p = halves.originals[i];
     const GridPoint& q = halves.others[copy];
-    EXPECT_EQ(q[1], plane.sum - p[1] + (*matches.offsets[i])[0]);
-    EXPECT_EQ(q[2], p[2] + (*matches.offsets[i])[1]);
-    EXPECT_EQ(q[0], p[0] + (*matches.offsets[i])[2]);
+    const auto offset = [&matches, i](std::size_t k) {
+      return std::int64_t{(*matches.offsets[i])[k]};
+    };
+    EXPECT_EQ(std::int64_t{q[1]}, static_cast<std::int64_t>(plane.sum) - p[1] + offset(0));
+    EXPECT_EQ(std::int64_t{q[2]}, p[2] + offset(1));
+    EXPECT_EQ(std::int64_t{q[0]}, p[0] + offset(2));
   }
   for (const std::uint32_t i : matches.unmatched) {
     EXPECT_FALSE(used[i]);

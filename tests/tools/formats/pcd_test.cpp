@@ -168,7 +168,7 @@ TEST(Pcd, PackedColoursAndNormalsAreArraysInEveryEncoding) {
   std::string fields;
   const std::array<float, 6> positions{1, 2, 3, 4, 5, 6};
   const std::uint32_t colour = 0x00102030;
-  for (int i = 0; i < 2; ++i) {
+  for (std::size_t i = 0; i < 2; ++i) {
     for (std::size_t k = 0; k < 3; ++k) put(binary, Order::Little, positions[3 * i + k]);
     put(binary, Order::Little, 0.5F);
     put(binary, Order::Little, colour);
