@@ -176,7 +176,9 @@ TEST(ArrayCoder, NormalsKeepTheirAngle) {
   const std::vector<GridPoint> points = test::scannedSphere(10, 2000, 4000);
   test::SampleArray array = test::sampleNormals(points);
   const float none = 0;
-  std::memcpy(array.values.numbers.data() + 12 * 700, &none, sizeof none);  // not of length one
+  constexpr std::ptrdiff_t kTuple = 12;
+  constexpr std::ptrdiff_t kBegin = kTuple * 700;
+  std::memcpy(array.values.numbers.data() + kBegin, &none, sizeof none);  // not of length one
   for (const double angle : {5.0, 0.2, 0.001}) {
     for (const unsigned effort : {2U, 6U}) {
       TilePoints tile(points, 300);
@@ -190,8 +192,8 @@ TEST(ArrayCoder, NormalsKeepTheirAngle) {
       ArrayValues back = test::firstTuples(array, 300);
       decodeArray(array.shape, encoded.payload, tile, kPlenty, back);
       ASSERT_EQ(back.numbers, given.numbers);
-      EXPECT_TRUE(std::equal(back.numbers.begin() + 12 * 700, back.numbers.begin() + 12 * 701,
-                             array.values.numbers.begin() + 12 * 700));
+      EXPECT_TRUE(std::equal(back.numbers.begin() + kBegin, back.numbers.begin() + kBegin + kTuple,
+                             array.values.numbers.begin() + kBegin));
       for (std::size_t i = 300; i < points.size(); ++i) {
         if (i == 700) continue;
         double product = 0;

@@ -131,13 +131,13 @@ std::vector<SampleArray> sampleArrays(const std::vector<GridPoint>& points, std:
         append(out, static_cast<std::uint8_t>(wave(p, 300) > 0 ? 1 : 0));
         append(out, static_cast<std::uint8_t>(random() % 2));
       }));
-  arrays.push_back(
-      arrayOf("many components", ScalarType::UInt16, 9, points,
-              [&](const GridPoint& p, std::size_t, Bytes& out) {
-                for (unsigned c = 0; c < 9; ++c) {
-                  append(out, static_cast<std::uint16_t>(p[c % 3] * (c + 1) + random() % 3));
-                }
-              }));
+  arrays.push_back(arrayOf(
+      "many components", ScalarType::UInt16, 9, points,
+      [&](const GridPoint& p, std::size_t, Bytes& out) {
+        for (unsigned c = 0; c < 9; ++c) {
+          append(out, static_cast<std::uint16_t>(std::uint64_t{p[c % 3]} * (c + 1) + random() % 3));
+        }
+      }));
   arrays.push_back(sampleNormals(points));
   SampleArray names{"few strings", ArrayShape{ScalarType::String, 2, Semantic::None}, {}};
   SampleArray texts{"many strings", ArrayShape{ScalarType::String, 1, Semantic::None}, {}};

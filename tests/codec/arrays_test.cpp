@@ -19,7 +19,7 @@ namespace {
 /// A point set with arrays, which it owns.
 class SetWithArrays {
  public:
-  SetWithArrays(std::vector<GridPoint> points, std::vector<ArrayValues> arrays)
+  SetWithArrays(const std::vector<GridPoint>& points, std::vector<ArrayValues> arrays)
       : xyz_(test::asIntegers(points)), arrays_(std::move(arrays)) {}
 
   PointSetView view() const {

@@ -116,8 +116,8 @@ TYPED_TEST(ExactFloats, OfABoxAreThoseInside) {
 }
 
 TYPED_TEST(ExactFloats, OnALatticeKeepTheLattice) {
-  std::vector<TypeParam> xyz;
-  for (int i = 0; i < 300; ++i) xyz.push_back(TypeParam(i % 17) / 4);
+  std::vector<TypeParam> xyz(300);
+  for (std::size_t i = 0; i < xyz.size(); ++i) xyz[i] = TypeParam(i % 17) / 4;
   EncodeOptions options;
   options.grid = GridRequest::exactFloats();
   EncodeReport report;
@@ -132,8 +132,8 @@ TYPED_TEST(ExactFloats, OnALatticeKeepTheLattice) {
 
 TYPED_TEST(ExactFloats, AreJoinedOnOneGrid) {
   const auto a = awkwardNumbers<TypeParam>(200);
-  std::vector<TypeParam> b;
-  for (int i = 0; i < 300; ++i) b.push_back(TypeParam(i) / 3);
+  std::vector<TypeParam> b(300);
+  for (std::size_t i = 0; i < b.size(); ++i) b[i] = TypeParam(i) / 3;
   EncodeOptions options;
   options.grid = GridRequest::exactFloats();
   const Bytes first = test::encoded(this->view(a), options);

@@ -216,6 +216,7 @@ TEST_P(MeshFile, IsJoinedWithOthers) {
     kept.push_back(encoded(owned.view(true), options));
     for (const auto& shape : faceShapes(mesh.points, mesh.cells.faces)) shapes.push_back(shape);
   }
+  files.reserve(kept.size());
   for (const Bytes& file : kept) files.push_back(std::make_shared<MemorySource>(file));
   MemorySink sink;
   JoinOptions options;

@@ -12,6 +12,7 @@ namespace {
 
 std::vector<Position> positionsOf(const std::vector<GridPoint>& points) {
   std::vector<Position> positions;
+  positions.reserve(points.size());
   for (const GridPoint& p : points) {
     positions.push_back({double(p[0]), double(p[1]), double(p[2])});
   }
@@ -39,6 +40,7 @@ std::vector<std::uint32_t> byBruteForce(const std::vector<Position>& positions,
 
 std::vector<std::uint32_t> numbersOf(const std::vector<Neighbour>& neighbours) {
   std::vector<std::uint32_t> numbers;
+  numbers.reserve(neighbours.size());
   for (const Neighbour& n : neighbours) numbers.push_back(n.vertex);
   return numbers;
 }

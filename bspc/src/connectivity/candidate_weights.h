@@ -17,8 +17,8 @@ inline unsigned gateKind(const Gate& gate) {
   return kind + (gate.closing ? 0 : 3);
 }
 
-/// Weights of the features, for each kind of candidate and gate. They start from values fitted to
-/// generated shapes and are learned from every vertex that is coded.
+/// Weights of the features, for each kind of candidate and gate. They start from values set by
+/// hand and are learned from every vertex that is coded.
 class CandidateWeights {
  public:
   using Weights = std::array<float, kFeatures>;
