@@ -40,6 +40,7 @@ struct WrittenTogether {
 WrittenTogether writeTogether(const std::vector<PointSetView>& views,
                               const EncodeOptions& options = {}) {
   std::vector<Bytes> descriptions;
+  descriptions.reserve(views.size());
   for (const PointSetView& view : views) descriptions.push_back(describePart(view, options));
   const EncodeOptions agreed = agreeOnParts(descriptions, options);
   std::vector<FilePart> parts;

@@ -29,6 +29,7 @@ std::vector<std::uint32_t> lattice(std::size_t count, std::uint64_t step) {
 /// Points whose y is that of `coordinates`, with a corner at y = 7.
 std::vector<GridPoint> pointsAlongY(const std::vector<std::uint32_t>& coordinates) {
   std::vector<GridPoint> points;
+  points.reserve(coordinates.size());
   for (const std::uint32_t c : coordinates) points.push_back({1, c + 7, 2});
   return points;
 }
