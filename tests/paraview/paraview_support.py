@@ -1,5 +1,6 @@
 """What the tests of the ParaView plugin share: they run ParaView's programs as people do."""
 
+import glob
 import os
 import shutil
 import subprocess
@@ -59,8 +60,9 @@ class ParaViewTest(unittest.TestCase):
         with open(name, "w", encoding="utf8") as file:
             file.write(PREAMBLE.format(plugin=PLUGIN) + script)
         command = ["pvbatch", *(["--symmetric"] if ranks > 1 else []), name]
+        printed = self.path("printed")
         if ranks > 1:
-            command = ["mpirun", "-np", str(ranks), *command]
+            command = ["mpirun", "-np", str(ranks), "--output-filename", printed, *command]
         if screen:
             command = SCREEN + command
         done = subprocess.run(
@@ -69,7 +71,19 @@ class ParaViewTest(unittest.TestCase):
         )
         if succeeds:
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        if ranks > 1:
+            return self.text_of_ranks(printed)
         return done.stdout + done.stderr
+
+    def text_of_ranks(self, folder):
+        """What the processes print, one after another: in what mpirun passes on, lines of one
+        process stand in the middle of another's."""
+        texts = []
+        for path in sorted(glob.glob(os.path.join(folder, "*", "rank.*", "std*"))):
+            with open(path, encoding="utf8", errors="replace") as file:
+                texts.append(file.read())
+        shutil.rmtree(folder)
+        return "\n".join(texts)
 
     def told(self, output, word):
         """What follows a word at the beginning of a line, line by line."""
