@@ -12,13 +12,16 @@ namespace {
 /// A file as a source that owns its stream. Paths are UTF-8 on every system.
 class FileSource final : public ByteSource {
  public:
-  explicit FileSource(const std::string& fileName)
-      : stream_(fileName.c_str(), std::ios::binary), source_(checked(stream_, fileName)) {}
+  explicit FileSource(const std::string& fileName) : source_(opened(stream_, fileName)) {}
   std::uint64_t size() const override { return source_.size(); }
   void read(std::uint64_t offset, Span<std::uint8_t> into) override { source_.read(offset, into); }
 
  private:
-  static std::istream& checked(vtksys::ifstream& stream, const std::string& fileName) {
+  /// Without a buffer: a decoder asks for whole blocks here and there, and a buffer would read what
+  /// nobody asked for.
+  static std::istream& opened(vtksys::ifstream& stream, const std::string& fileName) {
+    stream.rdbuf()->pubsetbuf(nullptr, 0);
+    stream.open(fileName.c_str(), std::ios::binary);
     if (!stream) throw Error(ErrorCode::Io, "the file " + fileName + " cannot be opened");
     return stream;
   }

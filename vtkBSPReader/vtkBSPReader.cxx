@@ -4,7 +4,6 @@
 #include <functional>
 #include <limits>
 #include <new>
-#include <optional>
 #include <vtksys/SystemInformation.hxx>
 #include <vtksys/SystemTools.hxx>
 
@@ -32,9 +31,9 @@ using bspc::DecodeOptions;
 using bspc::Decoder;
 using bspc::FileInfo;
 
-std::optional<unsigned> levelOrNone(int level) {
-  if (level < 0) return std::nullopt;
-  return static_cast<unsigned>(level);
+/// The level of that number, or the finest there is: files of a series have more and less of them.
+unsigned levelOr(int level, unsigned finest) {
+  return level < 0 ? finest : std::min(static_cast<unsigned>(level), finest);
 }
 
 /// The greatest coordinate that a point of that index can have.
@@ -139,7 +138,7 @@ void vtkBSPReader::vtkInternals::Publish(const FileInfo& info, vtkInformation* o
 /// Whether all points are read of a file that has cells for them.
 bool vtkBSPReader::vtkInternals::WantsMesh(const FileInfo& info) const {
   const int finest = static_cast<int>(info.layers.size()) - 1;
-  const bool all = self_->LevelOfDetail < 0 || self_->LevelOfDetail == finest;
+  const bool all = self_->LevelOfDetail < 0 || self_->LevelOfDetail >= finest;
   const vtkIdType most = self_->MaximumNumberOfPoints;
   const bool fits = most == 0 || static_cast<vtkIdType>(info.points) <= most;
   return !info.mesh.empty() && !info.mesh.missing && all && fits && !self_->UseBox;
@@ -147,7 +146,11 @@ bool vtkBSPReader::vtkInternals::WantsMesh(const FileInfo& info) const {
 
 DecodeOptions vtkBSPReader::vtkInternals::OptionsOf(const FileInfo& info) const {
   DecodeOptions options;
-  options.level = levelOrNone(self_->LevelOfDetail);
+  // The finest is not asked for by its number: a file that was cut short may lack it.
+  const int finest = static_cast<int>(info.layers.size()) - 1;
+  if (self_->LevelOfDetail >= 0 && self_->LevelOfDetail < finest) {
+    options.level = static_cast<unsigned>(self_->LevelOfDetail);
+  }
   if (self_->MaximumNumberOfPoints > 0) {
     options.maxPoints = static_cast<std::uint64_t>(self_->MaximumNumberOfPoints);
   }
@@ -176,7 +179,7 @@ void vtkBSPReader::vtkInternals::Read(Decoder& decoder, vtkInformation* outInfo,
   const FileInfo& info = decoder.info();
   DecodeOptions options = OptionsOf(info);
   const unsigned level = decoder.cost(options).level;
-  if (self_->GenerateCellIds) options.cellLevel = levelOrNone(self_->CellIdLevel).value_or(level);
+  if (self_->GenerateCellIds) options.cellLevel = levelOr(self_->CellIdLevel, level);
   const bool mesh = WantsMesh(info);
   // Cells come with the whole set only, which is the first piece.
   if (mesh && piece > 0) {

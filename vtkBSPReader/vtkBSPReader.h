@@ -56,8 +56,8 @@ class VTKBSPREADER_EXPORT vtkBSPReader : public vtkAbstractPolyDataReader {
 
   ///@{
   /**
-   * The level of detail to read, 0 (coarsest) to GetNumberOfLevels() - 1, which is every point.
-   * Points of a coarser level each stand for some. Default: -1, the finest.
+   * The level of detail to read, 0 (coarsest) to GetNumberOfLevels() - 1, which is every point; so
+   * is what is beyond. Points of a coarser level each stand for some. Default: -1, the finest.
    */
   vtkSetClampMacro(LevelOfDetail, int, -1, VTK_INT_MAX);
   vtkGetMacro(LevelOfDetail, int);
@@ -97,8 +97,8 @@ class VTKBSPREADER_EXPORT vtkBSPReader : public vtkAbstractPolyDataReader {
   ///@{
   /**
    * Add a point array "CellId" with the cell of the coder's partition that each point lies in, at
-   * the level CellIdLevel, which may not be finer than the one read. Default: off, and -1: the
-   * level that is read.
+   * the level CellIdLevel, or at the level that is read if that is coarser. Default: off, and -1:
+   * the level that is read.
    */
   vtkSetMacro(GenerateCellIds, bool);
   vtkGetMacro(GenerateCellIds, bool);

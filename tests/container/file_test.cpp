@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 #include <random>
 
 #include "bspc/error.h"
@@ -30,8 +31,9 @@ ErrorCode decodingError(const Bytes& file, bool allowPartial = false) {
   return ErrorCode::Io;
 }
 
-Bytes sampleFile(Layout layout, unsigned layers = 3) {
+Bytes sampleFile(Layout layout, unsigned layers = 3, std::optional<Method> method = std::nullopt) {
   EncodeOptions options;
+  options.method = method;
   options.layout = layout;
   options.layers = layers;
   return test::encoded(test::scannedSphere(21, 900, 2047), options);
@@ -129,7 +131,8 @@ TEST(Container, SurvivesMutatedHeadsWithRightChecksums) {
   // Checksums shield the parser from chance, not from malice.
   std::mt19937_64 random(33);
   for (const Layout layout : {Layout::Progressive, Layout::Streaming}) {
-    const Bytes good = sampleFile(layout);
+    // The head is the same for every method, and this one decodes what heads claim most quickly.
+    const Bytes good = sampleFile(layout, 3, Method::Fast);
     unsigned refused = 0;
     for (unsigned trial = 0; trial < 6000; ++trial) {
       const Bytes bad = withHead(good, [&random](Bytes& head) {

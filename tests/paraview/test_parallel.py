@@ -1,10 +1,9 @@
 """Several processes: each reads its own tiles, and all of them write one file."""
 
 import os
-import re
+import signal
 import subprocess
 import sys
-import tempfile
 import unittest
 
 from paraview_support import PLUGIN, SCREEN, ParaViewTest, environment
@@ -26,7 +25,7 @@ class Parallel(ParaViewTest):
         self.batch(
             CLOUD
             + """
-SaveData('cloud.bspc', proxy=cloud, Effort=2)
+SaveData('cloud.bspc', proxy=cloud, Effort=2, NumberOfLevels=3)
 """
         )
 
@@ -92,7 +91,7 @@ print('alive', flush=True)
             SCREEN + ["mpirun", "-np", "2", "pvserver", f"--server-port={port}",
                       "--force-offscreen-rendering"],
             cwd=self.folder, env=environment(self.folder), stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT, text=True, errors="replace",
+            stderr=subprocess.STDOUT, text=True, errors="replace", start_new_session=True,
         )
         try:
             for line in server.stdout:
@@ -120,7 +119,8 @@ print('served', served.GetDataInformation().GetNumberOfPoints(), flush=True)
                 timeout=200, check=False, capture_output=True, text=True, errors="replace",
             )
         finally:
-            server.terminate()
+            # With it the screen that xvfb-run has started.
+            os.killpg(server.pid, signal.SIGTERM)
             server.wait(60)
             server.stdout.close()
         out = done.stdout + done.stderr

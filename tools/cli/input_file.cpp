@@ -18,18 +18,29 @@ InputFile::InputFile(const std::string& path)
   if (std::filesystem::is_directory(path, ignored)) {
     throw Error(ErrorCode::Io, path + ": is a folder, not a file");
   }
+  open();
+}
+
+void InputFile::open() {
   errno = 0;
-  file_.open(path, std::ios::binary);
+  file_.open(name_, std::ios::binary);
   if (!file_) {
     const std::string reason = errno != 0 ? std::strerror(errno) : "unknown reason";
-    throw Error(ErrorCode::Io, path + ": cannot be opened (" + reason + ")");
+    throw Error(ErrorCode::Io, name_ + ": cannot be opened (" + reason + ")");
   }
 }
 
 std::istream& InputFile::stream() { return standardInput_ ? std::cin : file_; }
 
 std::shared_ptr<ByteSource> InputFile::source() {
-  if (!standardInput_) return std::make_shared<StreamSource>(file_);
+  if (!standardInput_) {
+    // A decoder asks for whole blocks here and there: a buffer would read what nobody asked for.
+    // It can only be taken away from a file that is not open.
+    file_.close();
+    file_.rdbuf()->pubsetbuf(nullptr, 0);
+    open();
+    return std::make_shared<StreamSource>(file_);
+  }
   std::array<char, 1U << 16> piece{};
   while (std::cin.read(piece.data(), piece.size()) || std::cin.gcount() > 0) {
     const auto* data = reinterpret_cast<const std::uint8_t*>(piece.data());

@@ -22,6 +22,8 @@ class InputFile {
   const std::string& name() const { return name_; }
 
  private:
+  void open();
+
   std::string name_;
   bool standardInput_;
   std::ifstream file_;
