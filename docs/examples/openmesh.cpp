@@ -10,10 +10,14 @@ using Mesh = OpenMesh::TriMesh_ArrayKernelT<>;
 
 static Mesh tetrahedron() {
   Mesh mesh;
-  const auto a = mesh.add_vertex({0, 0, 0});
-  const auto b = mesh.add_vertex({1, 0, 0});
-  const auto c = mesh.add_vertex({0, 1, 0});
-  const auto d = mesh.add_vertex({0, 0, 1});
+  const OpenMesh::VertexHandle a(0);
+  const OpenMesh::VertexHandle b(1);
+  const OpenMesh::VertexHandle c(2);
+  const OpenMesh::VertexHandle d(3);
+  for (const Mesh::Point& point :
+       {Mesh::Point(0, 0, 0), Mesh::Point(1, 0, 0), Mesh::Point(0, 1, 0), Mesh::Point(0, 0, 1)}) {
+    mesh.add_vertex(point);
+  }
   mesh.add_face(a, c, b);
   mesh.add_face(a, b, d);
   mesh.add_face(b, c, d);

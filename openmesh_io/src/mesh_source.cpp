@@ -96,7 +96,7 @@ void refusePersistent(Iterator begin, Iterator end, const char* owner) {
 
 }  // namespace
 
-MeshSource::MeshSource(OpenMesh::IO::BaseExporter& exporter, Options options)
+MeshSource::MeshSource(OpenMesh::IO::BaseExporter& exporter, const Options& options)
     : exporter_(exporter), options_(options) {
   refuseOthers();
   takeVertices();

@@ -15,7 +15,7 @@ class MeshSource {
  public:
   /// Throws Error(Unsupported) naming what cannot be stored, Error(InvalidArgument) if the options
   /// ask for what the mesh does not have.
-  MeshSource(OpenMesh::IO::BaseExporter& exporter, OpenMesh::IO::Options options);
+  MeshSource(OpenMesh::IO::BaseExporter& exporter, const OpenMesh::IO::Options& options);
 
   /// Views what this owns.
   PointSetView view() const;

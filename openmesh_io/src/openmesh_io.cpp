@@ -58,7 +58,7 @@ void readFrom(std::shared_ptr<ByteSource> source, BaseImporter& importer, Option
   options = target.found();
 }
 
-Bytes encodeMesh(BaseExporter& exporter, Options options, const WriteSettings& settings) {
+Bytes encodeMesh(BaseExporter& exporter, const Options& options, const WriteSettings& settings) {
   const MeshSource source(exporter, options);
   MemorySink sink;
   encode(source.view(), sink, settings.encoding);

@@ -200,8 +200,7 @@ TEST(OpenMeshIo, CarriesAttributesThatAreAskedFor) {
   for (const auto f : mesh.faces()) {
     EXPECT_EQ(restored.normal(f), mesh.normal(f));
     EXPECT_EQ(restored.color(f), mesh.color(f));
-    EXPECT_EQ(restored.from_vertex_handle(restored.halfedge_handle(f)),
-              mesh.from_vertex_handle(mesh.halfedge_handle(f)));
+    EXPECT_EQ(*restored.cfv_iter(f), *mesh.cfv_iter(f));
   }
 }
 
@@ -263,6 +262,7 @@ TEST(OpenMeshIo, RefusesWhatItCannotStore) {
 TEST(OpenMeshIo, KeepsDoublePrecision) {
   DoubleMesh mesh;
   std::vector<OpenMesh::VertexHandle> face;
+  face.reserve(4);
   for (int i = 0; i < 4; ++i) {
     face.push_back(mesh.add_vertex({7e6 + 0.001 * i, 5e5 + 0.002 * i * i, 0.1 * i}));
   }
@@ -323,7 +323,11 @@ TEST(OpenMeshIo, GivesFacesThatAreNoSurfaceVerticesOfTheirOwn) {
   ASSERT_TRUE(mesh.get_property_handle(height, "height"));
   for (const auto v : mesh.vertices()) {
     const auto p = mesh.point(v);
-    const float expected = p[0] == 1 ? 2 : p[1] == 1 ? 3 : p[2] == 1 ? 4 : p[1] == -1 ? 5 : 1;
+    const float expected = p[0] == 1    ? 2.0F
+                           : p[1] == 1  ? 3.0F
+                           : p[2] == 1  ? 4.0F
+                           : p[1] == -1 ? 5.0F
+                                        : 1.0F;
     EXPECT_EQ(mesh.property(height, v), expected);
   }
 }
