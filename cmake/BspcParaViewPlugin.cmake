@@ -21,5 +21,5 @@ ExternalProject_Add(bspc_paraview_plugin
 )
 install(CODE "
   execute_process(COMMAND \"${CMAKE_COMMAND}\" --install \"${BSPC_PARAVIEW_BINARY_DIR}\"
-    --prefix \"\${CMAKE_INSTALL_PREFIX}\" COMMAND_ERROR_IS_FATAL ANY)
+    --component plugin --prefix \"\${CMAKE_INSTALL_PREFIX}\" COMMAND_ERROR_IS_FATAL ANY)
 " COMPONENT paraview)

@@ -13,7 +13,7 @@ fi
 scripts/setup.sh --paraview
 cmake --preset paraview
 cmake --build --preset paraview -j "$(nproc)"
-plugin=$PWD/build/paraview/lib/paraview-5.11/plugins/BSPCPlugin/BSPCPlugin.so
+plugin=$PWD/build/paraview/lib/x86_64-linux-gnu/paraview-5.11/plugins/BSPCPlugin/BSPCPlugin.so
 export PYTHONPATH=$PWD/build/paraview-python/usr/lib/python3/dist-packages HWLOC_COMPONENTS=-gl
 xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" \
   pvbatch docs/paraview/pictures.py "$plugin" "$PWD/Testing/Data/superquadric_scan.ply" \
