@@ -39,7 +39,8 @@ def read(
 ) -> PointSet:
     """Reads a .bspc file, or bytes that hold one.
 
-    level       level of detail, 0 is the coarsest; default: every point
+    level       level of detail, 0 is the coarsest; default: every point, and so is what is beyond
+                the finest, for files of a series differ in the number of their levels
     max_points  at most so many points, taken from a coarser level if need be
     box         ((x, y, z), (x, y, z)): only the points between these corners
     arrays      names of the arrays to read; default: all

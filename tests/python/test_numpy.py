@@ -156,8 +156,11 @@ class Numpy(unittest.TestCase):
         self.assertGreater(len(bspc.read(data[:-100], partial=True).points), 0)
         with self.assertRaisesRegex(bspc.Error, "signature"):
             bspc.read(b"ply\nformat ascii 1.0\n")
-        with self.assertRaisesRegex(bspc.Error, "level"):
-            bspc.read(data, level=7)
+
+    def test_levels_beyond_the_finest_are_the_finest(self):
+        data = bspc.encode(self.points, levels=2)
+        self.assertLess(len(bspc.read(data, level=0).points), len(self.points))
+        self.assertEqual(len(bspc.read(data, level=7).points), len(self.points))
 
     def test_places_that_cannot_be_written_raise(self):
         with self.assertRaisesRegex(bspc.Error, "cannot be created"):
