@@ -23,7 +23,7 @@ scripts/models.sh
 models=()
 for model in build/demo/data/meshes/*.off; do
   # The counts stand behind the keyword, on its line or the next that is no comment.
-  faces=$(sed -e 's/#.*//' -e 's/^[A-Z]*OFF//' "$model" | grep -m1 '[0-9]' | awk '{print $2}')
+  faces=$(awk '{ sub(/#.*/, ""); sub(/^[A-Z]*OFF/, "") } /[0-9]/ { print $2; exit }' "$model")
   ((faces < 1000)) || models+=("$model")
 done
 build/release/bin/draco_mesh_benchmark "${models[@]}"
