@@ -1,0 +1,104 @@
+"""Elementary types of docs/format.md, section 1."""
+
+import struct
+
+
+class FormatError(Exception):
+    """A rule of the format is violated; `kind` is corrupt, truncated, unsupported or not bspc."""
+
+    def __init__(self, message, kind="corrupt"):
+        super().__init__(message)
+        self.kind = kind
+
+
+def require(condition, message, kind="corrupt"):
+    if not condition:
+        raise FormatError(message, kind)
+
+
+def bit_length(value):
+    return value.bit_length()
+
+
+# Number of a scalar type: name, bytes, letter of the struct module.
+SCALAR_TYPES = {
+    0: ("float32", 4, "f"),
+    1: ("float64", 8, "d"),
+    2: ("int8", 1, "b"),
+    3: ("uint8", 1, "B"),
+    4: ("int16", 2, "h"),
+    5: ("uint16", 2, "H"),
+    6: ("int32", 4, "i"),
+    7: ("uint32", 4, "I"),
+    8: ("int64", 8, "q"),
+    9: ("uint64", 8, "Q"),
+}
+BIT, STRING = 10, 11
+FLOAT32, FLOAT64, UINT8, UINT16, UINT32, UINT64 = 0, 1, 3, 5, 7, 9
+
+
+def type_name(scalar_type):
+    return {BIT: "bit", STRING: "string"}.get(scalar_type) or SCALAR_TYPES[scalar_type][0]
+
+
+def value_size(scalar_type):
+    return 1 if scalar_type == BIT else SCALAR_TYPES[scalar_type][1]
+
+
+def is_float(scalar_type):
+    return scalar_type in (FLOAT32, FLOAT64)
+
+
+def float32(value):
+    """The nearest float32 of a float64; infinite beyond the greatest."""
+    try:
+        return struct.unpack("<f", struct.pack("<f", value))[0]
+    except OverflowError:
+        return float("inf") if value > 0 else float("-inf")
+
+
+class Reader:
+    """Reads elementary types from bytes, from the first on."""
+
+    def __init__(self, data, position=0, end=None):
+        self.data = data
+        self.position = position
+        self.end = len(data) if end is None else end
+
+    def left(self):
+        return self.end - self.position
+
+    def bytes(self, size):
+        require(size <= self.left(), "content ends early", "truncated")
+        self.position += size
+        return self.data[self.position - size : self.position]
+
+    def rest(self):
+        return self.bytes(self.left())
+
+    def u8(self):
+        return self.bytes(1)[0]
+
+    def unsigned(self, size):
+        return int.from_bytes(self.bytes(size), "little")
+
+    def varint(self):
+        value = 0
+        for i in range(10):
+            byte = self.u8()
+            value |= (byte & 127) << (7 * i)
+            if byte < 128:
+                require(byte != 0 or i == 0, "a varint is longer than it must be")
+                require(value < 1 << 64, "a varint is above 64 bits")
+                return value
+        raise FormatError("a varint is above 64 bits")
+
+    def svarint(self):
+        value = self.varint()
+        return value // 2 if value % 2 == 0 else -(value // 2) - 1
+
+    def text(self):
+        return self.bytes(self.varint())
+
+    def finish(self):
+        require(self.position == self.end, "content goes on after its end")
