@@ -1,0 +1,77 @@
+"""Both decoders read every good file of the conformance set, with the content that the set tells."""
+
+from __future__ import annotations
+
+import glob
+import os
+import subprocess
+import sys
+import unittest
+
+from container import METHODS, File
+from content import Content
+from elementary import FormatError
+
+SET = os.path.join(os.path.dirname(__file__), "..", "..", "Testing", "Data", "conformance")
+LIST = os.path.join(SET, "good.txt")
+
+
+def listed() -> dict[str, str]:
+    """Path from the set's folder: hash."""
+    with open(LIST, encoding="utf-8") as lines:
+        return {path: wanted for wanted, path in (line.split() for line in lines)}
+
+
+def contents_by_library(program: str, paths: list[str]) -> dict[str, list[str]]:
+    """Path: what content_of prints about it."""
+    run = subprocess.run(
+        [program, *(os.path.join(SET, p) for p in paths)], capture_output=True, text=True, check=True
+    )
+    return {p: line.split("\t")[1:] for p, line in zip(paths, run.stdout.splitlines())}
+
+
+def read(path: str) -> bytes:
+    with open(os.path.join(SET, path), "rb") as stream:
+        return stream.read()
+
+
+class GoodFiles(unittest.TestCase):
+    def test_list_has_all_golden_files(self):
+        golden = {os.path.basename(f) for f in glob.glob(os.path.join(SET, "../golden/*.bspc"))}
+        self.assertEqual(golden, {os.path.basename(p) for p in listed() if "golden/" in p})
+
+    def test_library_finds_the_content_that_is_told(self):
+        wanted = listed()
+        found = contents_by_library(os.environ["CONTENT_OF"], list(wanted))
+        for path, content in found.items():
+            with self.subTest(path):
+                self.assertEqual(content[:2], ["good", wanted[path]])
+
+    def test_second_decoder_finds_the_content_that_is_told(self):
+        for path, wanted in listed().items():
+            with self.subTest(path):
+                data = read(path)
+                try:
+                    self.assertEqual(Content(data).hash(), wanted)
+                except NotImplementedError:
+                    # Its structure is checked all the same.
+                    file = File(data)
+                    methods = {METHODS[t.method] for t in file.tiles}
+                    self.assertTrue("predictive" in methods or file.head.arrays)
+
+
+def write_list(program: str) -> None:
+    paths = [os.path.relpath(f, SET) for f in glob.glob(os.path.join(SET, "../golden/*.bspc"))]
+    paths += [os.path.relpath(f, SET) for f in glob.glob(os.path.join(SET, "*.bspc"))]
+    with open(LIST, "w", encoding="utf-8") as lines:
+        for path, content in sorted(contents_by_library(program, paths).items()):
+            if content[0] != "good":
+                raise FormatError(f"{path}: {content}")
+            lines.write(f"{content[1]}  {path}\n")
+
+
+if __name__ == "__main__":
+    if sys.argv[1:2] == ["--write"]:
+        write_list(sys.argv[2])
+    else:
+        unittest.main()
