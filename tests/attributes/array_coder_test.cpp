@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <numeric>
@@ -75,6 +76,30 @@ TEST(ArrayCoder, TheOrderOfTheInputIsUsed) {
   for (const test::SampleArray& array : test::sampleArrays(points, 3)) {
     for (const unsigned effort : {2U, 7U}) expectRoundTrip(array, points, 0, effort, order);
   }
+}
+
+TEST(ArrayCoder, QuickEffortsTellCategoriesAlongTheInput) {
+  const std::vector<GridPoint> points = test::scannedSphere(5, 400, 20000);
+  const std::vector<std::uint32_t> order = sweep(points);
+  test::SampleArray returns{"returns", {ScalarType::UInt8}, {}};
+  returns.values.numbers.resize(points.size());
+  std::mt19937 random(1);
+  std::vector<std::uint8_t> along;  // pulses of one to three returns
+  while (along.size() < points.size()) {
+    const auto pulse = static_cast<std::uint8_t>(1 + random() % 3);
+    along.insert(along.end(), pulse, pulse);
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) returns.values.numbers[i] = along[order[i]];
+  std::array<std::size_t, 3> sizes{};
+  for (const unsigned effort : {1U, 2U}) {
+    expectRoundTrip(returns, points, 0, effort, order);
+    TilePoints known(points);
+    known.setInputOrder(order);
+    ArrayWishes wishes;
+    wishes.effort = effort;
+    sizes[effort] = encodeArray(returns.shape, returns.values, known, wishes).payload.size();
+  }
+  EXPECT_LT(sizes[2], sizes[1] * 9 / 10);
 }
 
 TEST(ArrayCoder, DegenerateSetsComeBack) {

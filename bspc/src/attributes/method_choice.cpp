@@ -20,6 +20,8 @@ struct Estimated {
   double bytes = std::numeric_limits<double>::infinity();
 };
 
+double learned(const Estimated& e) { return e.candidate->learning * e.bytes; }
+
 /// The best candidate of each family, best first.
 std::vector<Estimated> familyWinners(const std::vector<Candidate>& candidates, std::size_t points,
                                      std::size_t sample) {
@@ -44,8 +46,9 @@ std::vector<Estimated> familyWinners(const std::vector<Candidate>& candidates, s
 }  // namespace
 
 Bytes smallestPayload(const std::vector<Candidate>& candidates, std::size_t points,
-                      std::size_t sample, bool winnerTakesAll) {
-  constexpr double kPromising = 1.15;  // times the best estimate
+                      std::size_t sample, bool bestOnly) {
+  constexpr double kPromising = 1.15;
+  const double allowance = bestOnly ? 1 : kPromising;  // times the best estimate
   constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
   // A sample that is nearly everything is no saving.
   const bool sampled = candidates.size() > 1 && points > sample + sample / 2;
@@ -60,10 +63,7 @@ Bytes smallestPayload(const std::vector<Candidate>& candidates, std::size_t poin
   }
   const std::vector<Estimated> winners = familyWinners(candidates, points, sample);
   for (const Estimated& winner : winners) {
-    const bool promising =
-        winner.candidate->learning * winner.bytes <= kPromising * winners[0].bytes;
-    if (promising) tryAll(*winner.candidate);
-    if (winnerTakesAll) break;
+    if (learned(winner) <= allowance * winners[0].bytes) tryAll(*winner.candidate);
   }
   return best;
 }

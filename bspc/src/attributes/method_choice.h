@@ -22,8 +22,8 @@ struct Candidate {
 };
 
 /// The smallest payload of the promising candidates: each codes a sample, then those that did best
-/// code all `points`; only the best one if `winnerTakesAll`.
+/// code all `points`; if `bestOnly`, the best one and those that may only have to learn more.
 Bytes smallestPayload(const std::vector<Candidate>& candidates, std::size_t points,
-                      std::size_t sample, bool winnerTakesAll);
+                      std::size_t sample, bool bestOnly);
 
 }  // namespace bspc::attributes

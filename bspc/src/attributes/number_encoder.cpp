@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <limits>
+#include <numeric>
 
 #include "attributes/method_choice.h"
 #include "attributes/mixing_coder.h"
@@ -15,6 +17,8 @@ namespace {
 
 /// Efforts from this one on use exact neighbours and the range coder.
 constexpr unsigned kFullEffort = 5;
+/// Categories along the input need no neighbours: they are quick enough from here on.
+constexpr unsigned kInputCategoriesEffort = 2;
 
 int zstdLevel(unsigned effort) {
   constexpr std::array<int, 10> kLevels{1, 1, 1, 3, 6, 9, 12, 15, 19, 19};
@@ -51,8 +55,8 @@ class NumberEncoder {
       addResiduals();
       addMixing();
       addSpatialCategories();
-      addInputCategories();
     }
+    if (effort_ >= kInputCategoriesEffort) addInputCategories();
     const bool quick = effort_ < kFullEffort;
     return smallestPayload(candidates_, points_.added(), quick ? kQuickSample : kFullSample, quick);
   }
@@ -314,11 +318,32 @@ class NumberEncoder {
     addCategories({false, false}, alphabet, std::move(column));
   }
 
+  /// Whether few values make up three quarters of a sample: in most arrays they do not, and
+  /// counting all of theirs would cost more than coding them quickly.
+  static bool looksLikeCategories(const std::vector<Word>& words) {
+    constexpr std::size_t kFew = 16;
+    const std::size_t count = std::min(words.size(), kQuickSample);
+    const auto first = words.begin() + static_cast<std::ptrdiff_t>((words.size() - count) / 2);
+    std::vector<Word> sorted(first, first + static_cast<std::ptrdiff_t>(count));
+    std::sort(sorted.begin(), sorted.end());
+    std::vector<std::size_t> runs;
+    for (std::size_t i = 0; i < count;) {
+      const std::size_t start = i;
+      while (i < count && sorted[i] == sorted[start]) ++i;
+      runs.push_back(i - start);
+    }
+    std::sort(runs.begin(), runs.end(), std::greater<>());
+    runs.resize(std::min(runs.size(), kFew));
+    return 4 * std::accumulate(runs.begin(), runs.end(), std::size_t{0}) > 3 * count;
+  }
+
   void addInputCategories() {
-    if (!points_.hasInputOrder()) return;
+    const bool quick = effort_ < kFullEffort;
+    if (!points_.hasInputOrder() || (quick && shape_.components > 1)) return;
     for (const bool delta : {false, true}) {
       std::vector<Word> words = inputWords();
       if (delta) toDifferences(words, shape_.components);
+      if (quick && !looksLikeCategories(words)) continue;
       const CategoryAlphabet alphabet = categoryAlphabet(words);
       CategoryColumn column;
       column.components = shape_.components;
