@@ -9,11 +9,7 @@
 #include <immintrin.h>
 #endif
 
-/// Code that uses lanes can be compiled for more than one instruction set; each time it lives in an
-/// inline namespace of its own, so that linkers keep the versions apart.
-#if !defined(BSPC_LANE_SET)
-#define BSPC_LANE_SET portable
-#endif
+#include "entropy/lane_set.h"
 
 /// Lanes are passed in registers only where functions are truly inline.
 #define BSPC_LANES_INLINE inline __attribute__((always_inline))

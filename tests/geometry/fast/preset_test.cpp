@@ -10,6 +10,7 @@
 #include "bspc/error.h"
 #include "geometry/fast/fast_method.h"
 #include "geometry/fast/set_coder.h"
+#include "geometry/fast/slab_writer.h"
 #include "geometry/kd/kd_method.h"
 #include "support/point_sets.h"
 #include "support/tiles.h"
@@ -203,6 +204,24 @@ TEST(Sets, OfSurfacesTakeFarFewerBitsThanTheirCounts) {
   for (const unsigned effort : {1U, 2U, 3U, 4U}) {
     const EncodedTile coded = FastMethod().encode(tileOf(points, effort, 1), {});
     EXPECT_LT(coded.layers[0].size(), counts * 9 / 10);
+  }
+}
+
+TEST(Slabs, AreTheSameBytesWithAndWithoutVectors) {
+  if (!fast::hasAvx2SlabWriter()) GTEST_SKIP() << "this processor has no AVX2";
+  for (const auto& points : {test::scannedSphere(1, 20000, 4095), wideSheet(9000)}) {
+    const TileInput tile = tileOf(points, 2, 1);
+    const fast::RankedPoints ranked(tile);
+    const fast::SetPoints set(ranked);
+    for (const bool uvTree : {false, true}) {
+      fast::SlabOptions options;
+      options.uvTree = options.plan.compareCosts = uvTree;
+      container::ByteWriter portable;
+      container::ByteWriter vectors;
+      const auto order = fast::writeSlabsPortable(ranked.header().frame, set, options, portable);
+      EXPECT_EQ(fast::writeSlabsAvx2(ranked.header().frame, set, options, vectors), order);
+      EXPECT_EQ(vectors.take(), portable.take());
+    }
   }
 }
 

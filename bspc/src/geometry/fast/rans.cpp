@@ -9,31 +9,22 @@ namespace bspc::geometry::fast {
 
 namespace {
 
-/// A symbol's part of the whole, prepared so that coding divides by multiplication. The 32-bit
-/// reciprocal is exact for states of 31 bits.
-struct EncodingSymbol {
-  std::uint32_t limit = 0;  ///< states from here on give off a word first
-  std::uint32_t reciprocal = 0;
-  std::uint32_t bias = 0;
-  std::uint16_t complement = 0;
-  std::uint8_t shift = 0;
-
-  EncodingSymbol() = default;
-  EncodingSymbol(std::uint32_t start, std::uint32_t frequency)
-      : limit(((kRansLow >> kFrequencyBits) << 16) * frequency),
-        bias(start),
-        complement(static_cast<std::uint16_t>(kFrequencyTotal - frequency)) {
-    if (frequency < 2) {
-      reciprocal = ~std::uint32_t{0};
-      bias = start + kFrequencyTotal - 1;
-      return;
-    }
-    const unsigned ceilLog2 = entropy::bitLength(frequency - 1);
-    reciprocal = static_cast<std::uint32_t>(
-        ((std::uint64_t{1} << (ceilLog2 + 31)) + frequency - 1) / frequency);
-    shift = static_cast<std::uint8_t>(ceilLog2 - 1);
+EncodingSymbol encodingSymbol(std::uint32_t start, std::uint32_t frequency) {
+  EncodingSymbol symbol;
+  symbol.most = ((kRansLow >> kFrequencyBits) << 16) * frequency - 1;
+  symbol.complement = static_cast<std::uint16_t>(kFrequencyTotal - frequency);
+  if (frequency < 2) {
+    symbol.reciprocal = ~std::uint32_t{0};
+    symbol.bias = start + kFrequencyTotal - 1;
+    return symbol;
   }
-};
+  const unsigned ceilLog2 = entropy::bitLength(frequency - 1);
+  symbol.reciprocal = static_cast<std::uint32_t>(
+      ((std::uint64_t{1} << (ceilLog2 + 31)) + frequency - 1) / frequency);
+  symbol.bias = start;
+  symbol.shift = static_cast<std::uint16_t>(ceilLog2 - 1);
+  return symbol;
+}
 
 using EncodingTable = std::array<EncodingSymbol, kSymbols>;
 
@@ -41,18 +32,18 @@ EncodingTable encodingTable(const FrequencyTable& frequencies) {
   EncodingTable table;
   std::uint32_t start = 0;
   for (unsigned s = 0; s < kSymbols; ++s) {
-    if (frequencies[s] > 0) table[s] = EncodingSymbol(start, frequencies[s]);
+    if (frequencies[s] > 0) table[s] = encodingSymbol(start, frequencies[s]);
     start += frequencies[s];
   }
   return table;
 }
 
-/// Room for words that are written from its end towards its front. What is not used is never
-/// touched.
+/// Room for words that are written from its end towards its front, and for what the eight lanes
+/// overwrite before them. What is not used is never touched.
 class BackwardWords {
  public:
   explicit BackwardWords(std::size_t words)
-      : size_(2 * words + 2), bytes_(new std::uint8_t[2 * words + 2]) {}
+      : size_(2 * (words + kMaxLanes)), bytes_(new std::uint8_t[size_]) {}
 
   std::uint8_t* end() const { return bytes_.get() + size_; }
 
@@ -64,7 +55,7 @@ class BackwardWords {
 /// Codes a symbol; `at` is where the last word begins.
 inline void encode(std::uint32_t& state, const EncodingSymbol& symbol, std::uint8_t*& at) {
   const std::uint32_t x = state;
-  const bool full = x >= symbol.limit;
+  const bool full = x > symbol.most;
   storeLittle16(at - 2, x);
   at -= full ? 2 : 0;
   const std::uint32_t y = full ? x >> 16 : x;
@@ -92,7 +83,8 @@ std::vector<SymbolCounts> RansWriter::counts(unsigned tables) const {
   return counts;
 }
 
-Bytes RansWriter::finish(const std::vector<FrequencyTable>& tables, unsigned lanes) const {
+Bytes RansWriter::finish(const std::vector<FrequencyTable>& tables, unsigned lanes,
+                         bool vector) const {
   std::vector<EncodingTable> encoding;
   encoding.reserve(tables.size());
   for (const FrequencyTable& t : tables) encoding.push_back(encodingTable(t));
@@ -106,6 +98,11 @@ Bytes RansWriter::finish(const std::vector<FrequencyTable>& tables, unsigned lan
     std::uint32_t i = runs_[r] >> 8;
     if (lanes == kMaxLanes) {
       while (i % kMaxLanes != 0) encode(states[--i % kMaxLanes], table[*--symbol], at);
+      if (vector) {
+        vectorRunBackward(table.data(), symbol, i, states.data(), at);
+        symbol -= i;
+        i = 0;
+      }
       for (; i > 0; i -= kMaxLanes) {
         symbol -= kMaxLanes;
         for (unsigned lane = kMaxLanes; lane-- > 0;) {

@@ -39,7 +39,9 @@ class RansWriter {
 
   /// counts[t]: the symbols of table t.
   std::vector<SymbolCounts> counts(unsigned tables) const;
-  Bytes finish(const std::vector<FrequencyTable>& tables, unsigned lanes) const;
+  /// `vector`: eight symbols at once, with the same result.
+  Bytes finish(const std::vector<FrequencyTable>& tables, unsigned lanes,
+               bool vector = hasVectorRans()) const;
 
  private:
   std::vector<std::uint8_t> symbols_;

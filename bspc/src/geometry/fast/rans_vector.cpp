@@ -33,6 +33,20 @@ constexpr Shares makeShares() {
 
 constexpr Shares kShares = makeShares();
 
+/// For each set of lanes that give off a word, those lanes side by side at the end.
+constexpr Shares makeGivers() {
+  Shares givers{};
+  for (unsigned full = 0; full < 256; ++full) {
+    unsigned place = 8;
+    for (unsigned lane = 8; lane-- > 0;) {
+      if (((full >> lane) & 1) != 0) givers[full][--place] = static_cast<std::uint8_t>(lane);
+    }
+  }
+  return givers;
+}
+
+constexpr Shares kGivers = makeGivers();
+
 }  // namespace
 
 bool hasVectorRans() {
@@ -84,12 +98,69 @@ __attribute__((target("avx2,popcnt"))) unsigned vectorRun(const std::uint32_t* e
   return static_cast<unsigned>(_mm_cvtsi128_si32(greatest)) & 0xFF;
 }
 
+__attribute__((target("avx2,popcnt"))) void vectorRunBackward(const EncodingSymbol* table,
+                                                              const std::uint8_t* end,
+                                                              std::size_t count,
+                                                              std::uint32_t* states,
+                                                              std::uint8_t*& at) {
+  static_assert(sizeof(EncodingSymbol) == 16);
+  const auto* entries = reinterpret_cast<const __m128i*>(table);
+  const __m256i lowHalf = _mm256_set1_epi32(0xFFFF);
+  __m256i x = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(states));
+  std::uint8_t* to = at;
+  const std::uint8_t* symbol = end;
+  for (std::size_t left = count; left > 0; left -= kMaxLanes) {
+    symbol -= kMaxLanes;
+    // Of lanes k and k + 4 the entries side by side, then the four numbers of all lanes together.
+    __m256i pair[4];
+    for (unsigned k = 0; k < 4; ++k) {
+      pair[k] =
+          _mm256_inserti128_si256(_mm256_castsi128_si256(_mm_loadu_si128(entries + symbol[k])),
+                                  _mm_loadu_si128(entries + symbol[k + 4]), 1);
+    }
+    const __m256i low01 = _mm256_unpacklo_epi32(pair[0], pair[1]);
+    const __m256i low23 = _mm256_unpacklo_epi32(pair[2], pair[3]);
+    const __m256i high01 = _mm256_unpackhi_epi32(pair[0], pair[1]);
+    const __m256i high23 = _mm256_unpackhi_epi32(pair[2], pair[3]);
+    const __m256i most = _mm256_unpacklo_epi64(low01, low23);
+    const __m256i reciprocal = _mm256_unpackhi_epi64(low01, low23);
+    const __m256i bias = _mm256_unpacklo_epi64(high01, high23);
+    const __m256i complementAndShift = _mm256_unpackhi_epi64(high01, high23);
+
+    const __m256i full = _mm256_cmpgt_epi32(x, most);  // states have 31 bits
+    const auto mask = static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(full)));
+    const __m256i givers = _mm256_permutevar8x32_epi32(
+        _mm256_and_si256(x, lowHalf), _mm256_cvtepu8_epi32(_mm_loadl_epi64(
+                                          reinterpret_cast<const __m128i*>(kGivers[mask].data()))));
+    const __m128i words =
+        _mm_packus_epi32(_mm256_castsi256_si128(givers), _mm256_extracti128_si256(givers, 1));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(to - 16), words);
+    to -= std::size_t{2} * static_cast<unsigned>(_mm_popcnt_u32(mask));
+
+    const __m256i y = _mm256_blendv_epi8(x, _mm256_srli_epi32(x, 16), full);
+    const __m256i even = _mm256_srli_epi64(_mm256_mul_epu32(y, reciprocal), 32);
+    const __m256i odd =
+        _mm256_mul_epu32(_mm256_srli_epi64(y, 32), _mm256_srli_epi64(reciprocal, 32));
+    const __m256i quotient = _mm256_srlv_epi32(_mm256_blend_epi32(even, odd, 0xAA),
+                                               _mm256_srli_epi32(complementAndShift, 16));
+    const __m256i complement = _mm256_and_si256(complementAndShift, lowHalf);
+    x = _mm256_add_epi32(_mm256_add_epi32(y, bias), _mm256_mullo_epi32(quotient, complement));
+  }
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(states), x);
+  at = to;
+}
+
 #else
 
 bool hasVectorRans() { return false; }
 
 unsigned vectorRun(const std::uint32_t*, std::size_t, RansLanes&, std::uint8_t*) {
   throw Error(ErrorCode::Unsupported, "this machine cannot decode eight symbols at once");
+}
+
+void vectorRunBackward(const EncodingSymbol*, const std::uint8_t*, std::size_t, std::uint32_t*,
+                       std::uint8_t*&) {
+  throw Error(ErrorCode::Unsupported, "this machine cannot encode eight symbols at once");
 }
 
 #endif

@@ -5,8 +5,8 @@
 
 #include "bspc/span.h"
 #include "container/byte_writer.h"
+#include "geometry/fast/fit_options.h"
 #include "geometry/fast/slab_planner.h"
-#include "geometry/fast/surface_fit.h"
 #include "geometry/fast/tile_frame.h"
 
 namespace bspc::geometry::fast {

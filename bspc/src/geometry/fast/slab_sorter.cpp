@@ -4,7 +4,7 @@
 #include <array>
 #include <numeric>
 
-#include "geometry/fast/slab_curve.h"
+#include "entropy/symbol_coder.h"
 
 namespace bspc::geometry::fast {
 
@@ -51,40 +51,6 @@ void BitSorter::sort(std::vector<std::uint64_t>& keys, unsigned fromBit, unsigne
     for (const std::uint64_t key : keys) spare_[starts[(key >> shift) & mask]++] = key;
     keys.swap(spare_);
   }
-}
-
-void SortedSlab::sort(const Cell& cell, const StepScale& scale, const TilePoint* points,
-                      std::uint32_t count, unsigned heightAxis) {
-  const HilbertPlane& curve = HilbertPlane::instance();
-  frame_ = SlabFrame(cell, scale, heightAxis, count);
-  for (unsigned k = 0; k < 3; ++k) lower_[k] = cell.lower[frame_.axis[k]];
-  points_ = points;
-  // Larger slabs than an encoder makes have a single position, and so no bits of code: both fit.
-  indexBits_ = count > 0 ? entropy::bitLength(count - 1) : 0;
-  indexMask_ = (std::uint64_t{1} << indexBits_) - 1;
-  keys_.resize(count);
-  const SlabFrame frame = frame_;  // copies live in registers
-  const unsigned indexBits = indexBits_;
-  const std::uint32_t lowerU = lower_[0];
-  const std::uint32_t lowerV = lower_[1];
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const std::uint64_t code =
-        codeOf(curve, frame, (points[i].at[frame.axis[0]] - lowerU) >> frame.cut[0],
-               (points[i].at[frame.axis[1]] - lowerV) >> frame.cut[1]);
-    keys_[i] = (code << indexBits) | i;
-  }
-  sorter_.sort(keys_, indexBits_, indexBits_ + frame.codeBits());
-}
-
-std::uint32_t SortedSlab::cutOff(const TilePoint& p) const {
-  std::uint32_t bits = 0;
-  unsigned before = 0;
-  for (unsigned k = 0; k < 3; ++k) {
-    const std::uint32_t all = p.at[frame_.axis[k]] - lower_[k];
-    bits |= (all & ((1U << frame_.cut[k]) - 1)) << before;
-    before += frame_.cut[k];
-  }
-  return bits;
 }
 
 }  // namespace bspc::geometry::fast

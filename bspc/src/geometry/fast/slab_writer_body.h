@@ -1,32 +1,40 @@
+#pragma once
+
+// The encoder of slabs, for one instruction set. To be included by the sources that are compiled
+// for one each (slab_writer_portable.cpp, slab_writer_avx2.cpp), and by nothing else.
+
 #include <algorithm>
 #include <memory>
-#include <optional>
+#include <utility>
+#include <vector>
 
 #include "container/byte_writer.h"
+#include "entropy/lane_set.h"
 #include "entropy/symbol_coder.h"
 #include "geometry/fast/chunk_coder.h"
 #include "geometry/fast/slab_body.h"
-#include "geometry/fast/slab_sorter.h"
 #include "geometry/fast/slab_tree.h"
+#include "geometry/fast/sorted_slab.h"
+#include "geometry/fast/surface_fit.h"
 #include "geometry/fast/uv_tree.h"
 
 namespace bspc::geometry::fast {
-
-namespace {
+inline namespace BSPC_LANE_SET {
 
 /// Estimates look at every so many-th chunk of a large slab.
 constexpr std::size_t kEstimateStep = 4;
 constexpr float kSlabBits = 24;
 constexpr std::size_t kSizesBytes = 64;  ///< more than the sizes of all sections take
 
-SurfaceHistory startOf(const SlabFrame& frame) {
+inline SurfaceHistory startOf(const SlabFrame& frame) {
   const auto middle = [&frame](unsigned k) { return (std::uint32_t{1} << frame.levels[k]) / 2; };
   return SurfaceHistory(middle(0), middle(1), middle(2));
 }
 
 /// The chunk of a slab that begins at point `first`; where its points came from goes to `order`,
 /// unless that is null.
-void loadChunk(const SortedSlab& slab, std::size_t first, Chunk& chunk, std::uint32_t* order) {
+inline void loadChunk(const SortedSlab& slab, std::size_t first, Chunk& chunk,
+                      std::uint32_t* order) {
   const std::size_t count = std::min(kChunkPoints, slab.size() - first);
   chunk.count = count;
   std::uint64_t before = first > 0 ? slab.code(first - 1) : 0;
@@ -44,7 +52,7 @@ void loadChunk(const SortedSlab& slab, std::size_t first, Chunk& chunk, std::uin
   for (std::size_t i = 0; i < count; ++i) chunk.cutOff[i] = slab.cutOff(slab.point(first + i));
 }
 
-void remember(const Chunk& chunk, SurfaceHistory& history) {
+inline void remember(const Chunk& chunk, SurfaceHistory& history) {
   if (chunk.surface.mode == SurfaceMode::Delta) {
     const std::size_t last = chunk.count - 1;
     history.passThrough(chunk.u[last], chunk.v[last], chunk.w[last]);
@@ -193,12 +201,11 @@ class SlabWriter {
   std::size_t written_ = 0;
 };
 
-}  // namespace
-
-std::vector<std::uint32_t> writeSlabs(const TileFrame& frame, const SetPoints& points,
-                                      const SlabOptions& options, container::ByteWriter& out) {
+inline std::vector<std::uint32_t> write(const TileFrame& frame, const SetPoints& points,
+                                        const SlabOptions& options, container::ByteWriter& out) {
   const auto writer = std::make_unique<SlabWriter>(frame, options, points.size());
   return writer->write(points, out);
 }
 
+}  // namespace BSPC_LANE_SET
 }  // namespace bspc::geometry::fast
