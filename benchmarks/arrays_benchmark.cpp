@@ -91,6 +91,7 @@ void run(const std::string& path) {
   const ArraySet set = bspc::benchmarks::readArraySet(path);
   const std::vector<std::uint32_t> order = decodedOrder(set.points);
   std::vector<GridPoint> points;
+  points.reserve(order.size());
   for (const std::uint32_t i : order) points.push_back(set.points[i]);
   const auto count = static_cast<double>(points.size());
   std::printf("%s: %zu points\n", set.name.c_str(), points.size());
@@ -117,9 +118,9 @@ void run(const std::string& path) {
     print(array.name, "effort 9, with order", best);
     sum += best.bits * array.shape.components;
     if (array.shape.semantic != bspc::Semantic::Normals) continue;
-    for (const double angle : {0.235, 0.0585}) {
+    for (const double angle : {0.23, 0.058}) {
       wishes.maxAngle = angle;
-      const std::string way = "effort 9, " + std::to_string(angle).substr(0, 6) + " degrees";
+      const std::string way = "effort 9, " + std::to_string(angle).substr(0, 5) + " degrees";
       print(array.name, way.c_str(), measure(array, values, points, nullptr, wishes));
     }
   }

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 
 #include "attributes/logistic_mixer.h"
 #include "attributes/octahedral_map.h"
@@ -124,18 +126,50 @@ TEST(OrderedWords, SortAsTheNumbersDo) {
   }
 }
 
+double cosine(const OctahedralMap::Vector& a, const OctahedralMap::Vector& b) {
+  const auto product = [](const OctahedralMap::Vector& v, const OctahedralMap::Vector& w) {
+    return v[0] * w[0] + v[1] * w[1] + v[2] * w[2];
+  };
+  return product(a, b) / std::sqrt(product(a, a) * product(b, b));
+}
+
 TEST(OctahedralMap, PlacesComeBackAndLieNearTheirDirections) {
-  for (const unsigned bits : {2U, 5U, 10U}) {
-    const OctahedralMap map(bits);
-    const std::uint32_t last = (1U << bits) - 2;
+  for (const std::uint32_t half : {1U, 15U, 300U, OctahedralMap::kMostHalf}) {
+    const OctahedralMap map(half);
+    const std::uint32_t last = 2 * half;
     for (std::uint32_t u = 0; u <= last; u += 1 + last / 40) {
       for (std::uint32_t v = 0; v <= last; v += 1 + last / 40) {
         const OctahedralMap::Vector d = map.direction({u, v});
         EXPECT_NEAR(d[0] * d[0] + d[1] * d[1] + d[2] * d[2], 1, 1e-12);
-        // Places on the border of the square may name the same direction.
-        const OctahedralMap::Vector again = map.direction(map.place(d));
-        for (unsigned k = 0; k < 3; ++k) EXPECT_NEAR(again[k], d[k], 1e-12);
+        // Places on the border of the square may have the same point; all are one place then.
+        const OctahedralMap::Point point = map.point({u, v});
+        EXPECT_EQ(std::abs(point[0]) + std::abs(point[1]) + std::abs(point[2]),
+                  static_cast<std::int32_t>(half));
+        EXPECT_EQ(map.point(map.placeOf(point)), point);
+        EXPECT_EQ(map.place(d), map.placeOf(point));
       }
+    }
+  }
+}
+
+TEST(OctahedralMap, ChartsKeepPlacesAndPutNeighboursBesideEachOther) {
+  const OctahedralMap map(50);
+  for (const OctahedralMap::Vector& v :
+       {OctahedralMap::Vector{0.3, 0.2, -0.8}, {-0.7, 0.1, 0.1}, {0.2, -0.9, 0}, {0, 0, 0}}) {
+    const OctahedralChart chart(v);
+    for (std::uint32_t place = 0; place <= 100; ++place) {
+      const OctahedralMap::Place given = map.placeOf(map.point({place, place * place % 101}));
+      EXPECT_EQ(chart.fromChart(map, chart.toChart(map, given)), given);
+    }
+    const OctahedralMap::Place middle = chart.place(map, v);
+    if (v != OctahedralMap::Vector{}) {
+      EXPECT_GT(cosine(map.direction(chart.fromChart(map, middle)), v), std::cos(1.5 / 50));
+    }
+    for (const OctahedralMap::Place& beside :
+         {OctahedralMap::Place{middle[0] + 1, middle[1]}, {middle[0], middle[1] - 1}}) {
+      const OctahedralMap::Vector a = map.direction(chart.fromChart(map, middle));
+      const OctahedralMap::Vector b = map.direction(chart.fromChart(map, beside));
+      EXPECT_GT(cosine(a, b), std::cos(2.5 / 50));
     }
   }
 }

@@ -82,7 +82,7 @@ bool allows(const NumberShape& shape, ResidualSettings::Domain domain) {
     case ResidualSettings::Domain::Unit:
       return isFloatingPoint(shape.type) && shape.components == 3;
     case ResidualSettings::Domain::Sphere:
-      return shape.sphereBits > 0;
+      return shape.sphereHalf > 0;
   }
   return false;
 }
@@ -98,7 +98,7 @@ ResidualSettings residualSettings(const NumberShape& shape) {
   ResidualSettings settings;
   settings.kind = numberKind(shape.type);
   settings.components = shape.components;
-  settings.sphereBits = shape.sphereBits;
+  settings.sphereHalf = shape.sphereHalf;
   return settings;
 }
 

@@ -29,7 +29,8 @@ enum class ArrayMethod : std::uint8_t {
 struct NumberShape {
   ScalarType type = ScalarType::Float32;
   std::uint32_t components = 1;
-  unsigned sphereBits = 0;  ///< two components are a place of OctahedralMap; 0: they are not
+  std::uint32_t sphereHalf =
+      0;  ///< two components are a place of such an OctahedralMap; 0: are not
 };
 
 void writeMethod(ArrayMethod method, container::ByteWriter& out);

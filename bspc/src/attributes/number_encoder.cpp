@@ -196,7 +196,7 @@ class NumberEncoder {
   void addResiduals() {
     using Domain = ResidualSettings::Domain;
     Domain domain = isFloatingPoint(shape_.type) ? Domain::Numbers : Domain::Words;
-    if (shape_.sphereBits > 0) domain = Domain::Sphere;
+    if (shape_.sphereHalf > 0) domain = Domain::Sphere;
     if (isFloatingPoint(shape_.type) && shape_.components == 3 && looksUnit()) {
       domain = Domain::Unit;
     }

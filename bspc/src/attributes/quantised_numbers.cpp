@@ -165,7 +165,7 @@ void decodeQuantised(const ArrayShape& shape, container::ByteReader& in, TilePoi
   const std::size_t size = scalarSize(shape.type);
   const std::size_t first = points.known() * shape.components;
   const std::size_t count = points.added() * shape.components;
-  const ExceptionList exceptions = ExceptionList::read(in, count, size);
+  const ExceptionList exceptions = ExceptionList::read(in, count, size, budget);
   budget.take(numbers.size() / size, frame.size);
   Bytes words = knownWords(shape, numbers, points.known(), frame);
   const NumberShape inner{unsignedType(frame.size), shape.components, 0};

@@ -1,6 +1,7 @@
 #include "attributes/residual_coder.h"
 
 #include <algorithm>
+#include <array>
 #include <type_traits>
 
 #include "attributes/residual_models.h"
@@ -39,6 +40,21 @@ class ResidualCoder {
     weights_.find(static_cast<std::uint32_t>(rank), neighbours_.of(rank), near_);
     predictor_.start(near_);
     Word* tuple = words_.data() + rank * settings_.components;
+    if (settings_.domain != ResidualSettings::Domain::Sphere) {
+      codeWords(rank, tuple);
+    } else {
+      std::array<Word, 2> coded{};
+      if (Coder::kWriting) coded = predictor_.toChart(tuple);
+      codeWords(rank, coded.data());
+      if (!Coder::kWriting) {
+        coded = predictor_.fromChart(coded.data());
+        std::copy(coded.begin(), coded.end(), tuple);
+      }
+    }
+    predictor_.learn(rank);
+  }
+
+  void codeWords(std::size_t rank, Word* tuple) {
     const std::size_t first = (rank - points_.known) * settings_.components;
     unsigned surprise = 0;
     unsigned lastSign = 1;
@@ -54,7 +70,6 @@ class ResidualCoder {
       surprise = surpriseOf(residual.size, context.expected);
       lastSign = residual.size == 0 ? 1 : residual.negative ? 0 : 2;
     }
-    predictor_.learn(rank);
   }
 
   using Models = ResidualModels<Coder>;

@@ -23,7 +23,7 @@ struct ResidualSettings {
   Predictor predictor = Predictor::Nearest;
   unsigned stiffness = 0;
   Domain domain = Domain::Words;
-  unsigned sphereBits = 0;  ///< Sphere only: bits of a place
+  std::uint32_t sphereHalf = 0;  ///< Sphere only: size of the OctahedralMap
 };
 
 /// Codes the words of the new points (those of ranks from points.known on) as differences from what

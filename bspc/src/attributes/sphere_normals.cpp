@@ -67,16 +67,36 @@ struct Places {
   double greatestAngle = 0;
 };
 
-Places placesOf(ScalarType type, const Bytes& numbers, std::size_t known, unsigned bits,
+/// Of the places around a vector, the one of the least angle: the nearest in the square has up to
+/// one and a half times that.
+Place bestPlace(const OctahedralMap& map, const Vector& v) {
+  const OctahedralChart chart(v);
+  const Place middle = chart.place(map, v);
+  Place best = chart.fromChart(map, middle);
+  double greatest = -2;
+  for (const std::uint32_t u : {middle[0] - 1, middle[0], middle[0] + 1}) {
+    for (const std::uint32_t w : {middle[1] - 1, middle[1], middle[1] + 1}) {
+      const Place place = chart.fromChart(map, {u, w});
+      const Vector d = map.direction(place);
+      const double product = d[0] * v[0] + d[1] * v[1] + d[2] * v[2];
+      if (!(product > greatest)) continue;
+      greatest = product;
+      best = place;
+    }
+  }
+  return best;
+}
+
+Places placesOf(ScalarType type, const Bytes& numbers, std::size_t known, std::uint32_t half,
                 double maxAngle) {
-  const OctahedralMap map(bits);
+  const OctahedralMap map(half);
   const std::size_t tupleSize = kComponents * scalarSize(type);
   Places result;
   result.places.resize(numbers.size() / tupleSize - known);
   for (std::size_t i = 0; i < result.places.size(); ++i) {
     const Vector given = vectorAt(numbers, type, known + i);
-    const Place place = map.place(given);
     const bool unit = isUnit(given);
+    const Place place = unit ? bestPlace(map, given) : Place{};
     const double angle = unit ? degreesBetween(given, rounded(map.direction(place), type)) : 0.0;
     if (unit && angle <= maxAngle) {
       result.places[i] = place;
@@ -90,12 +110,15 @@ Places placesOf(ScalarType type, const Bytes& numbers, std::size_t known, unsign
   return result;
 }
 
-std::size_t wordSize(unsigned bits) { return bits <= 8 ? 1 : bits <= 16 ? 2 : 4; }
+std::size_t wordSize(std::uint32_t half) {
+  const std::uint32_t last = 2 * half;
+  return last <= 0xFF ? 1 : last <= 0xFFFF ? 2 : 4;
+}
 
 /// The places of the known vectors, in front of room for those of the new ones.
-Bytes knownPlaces(ScalarType type, const Bytes& numbers, std::size_t known, unsigned bits) {
-  const OctahedralMap map(bits);
-  const std::size_t size = wordSize(bits);
+Bytes knownPlaces(ScalarType type, const Bytes& numbers, std::size_t known, std::uint32_t half) {
+  const OctahedralMap map(half);
+  const std::size_t size = wordSize(half);
   Bytes words(numbers.size() / (kComponents * scalarSize(type)) * kPlaceComponents * size);
   for (std::size_t i = 0; i < known; ++i) {
     const Place place = map.place(vectorAt(numbers, type, i));
@@ -106,28 +129,34 @@ Bytes knownPlaces(ScalarType type, const Bytes& numbers, std::size_t known, unsi
   return words;
 }
 
+/// With so many places no angle is greater, but for rounding: in the middle of the octahedron's
+/// faces, where they are farthest apart, they are triangles of side sqrt(6) / half.
+std::uint32_t leastHalf(double maxAngle) {
+  constexpr double kDegrees = 81.04;  // sqrt(2) in degrees: their distance from the corners
+  const double half = std::ceil(kDegrees / maxAngle);
+  constexpr std::uint32_t kTooMany = OctahedralMap::kMostHalf + 1;
+  return half < static_cast<double>(kTooMany) ? static_cast<std::uint32_t>(half) : kTooMany;
+}
+
 }  // namespace
 
 EncodedArray encodeSphere(const ArrayShape& shape, ArrayValues& values, TilePoints& points,
                           const ArrayWishes& wishes) {
   constexpr std::size_t kMostExceptions = 4;
-  unsigned bits = OctahedralMap::kMinBits;
+  std::uint32_t half = leastHalf(wishes.maxAngle);
   Places found;
-  for (; bits <= OctahedralMap::kMaxBits; ++bits) {
-    // Places of so many bits leave angles of up to 240 degrees / 2^bits, in places more.
-    constexpr double kLeast = 100;
-    if (kLeast / static_cast<double>(std::uint32_t{1} << bits) > wishes.maxAngle) continue;
-    found = placesOf(shape.type, values.numbers, points.known(), bits, wishes.maxAngle);
+  for (; half <= OctahedralMap::kMostHalf; half += half / 4 + 1) {
+    found = placesOf(shape.type, values.numbers, points.known(), half, wishes.maxAngle);
     if (found.missed == 0) break;
   }
-  if (bits > OctahedralMap::kMaxBits ||
+  if (half > OctahedralMap::kMostHalf ||
       found.exceptions.places.size() > found.places.size() / kMostExceptions) {
     return {};
   }
-  const std::size_t size = wordSize(bits);
+  const std::size_t size = wordSize(half);
   const std::size_t tupleSize = kComponents * scalarSize(shape.type);
-  const OctahedralMap map(bits);
-  Bytes words = knownPlaces(shape.type, values.numbers, points.known(), bits);
+  const OctahedralMap map(half);
+  Bytes words = knownPlaces(shape.type, values.numbers, points.known(), half);
   for (std::size_t i = 0; i < found.places.size(); ++i) {
     const std::size_t tuple = points.known() + i;
     for (std::size_t c = 0; c < kPlaceComponents; ++c) {
@@ -141,9 +170,9 @@ EncodedArray encodeSphere(const ArrayShape& shape, ArrayValues& values, TilePoin
   }
   container::ByteWriter out;
   writeMethod(ArrayMethod::Sphere, out);
-  out.u8(bits);
+  out.varint(half);
   found.exceptions.write(out);
-  const NumberShape inner{unsignedType(size), kPlaceComponents, bits};
+  const NumberShape inner{unsignedType(size), kPlaceComponents, half};
   const Bytes coded = encodeNumbers(inner, words, points, wishes.effort);
   out.bytes(coded);
   return {out.take(), found.greatestAngle, followsInput(coded)};
@@ -154,18 +183,19 @@ void decodeSphere(const ArrayShape& shape, container::ByteReader& in, TilePoints
   if (!isFloatingPoint(shape.type) || shape.components != kComponents) {
     in.fail("an array that has not three floating-point components is said to be of directions");
   }
-  const unsigned bits = in.u8();
-  if (bits < OctahedralMap::kMinBits || bits > OctahedralMap::kMaxBits) {
-    in.fail("directions have " + std::to_string(bits) + " bits");
+  const std::uint64_t size64 = in.varint();
+  if (size64 < 1 || size64 > OctahedralMap::kMostHalf) {
+    in.fail("directions lie on an octahedron of size " + std::to_string(size64));
   }
+  const auto half = static_cast<std::uint32_t>(size64);
   const std::size_t tupleSize = kComponents * scalarSize(shape.type);
-  const ExceptionList exceptions = ExceptionList::read(in, points.added(), tupleSize);
-  const std::size_t size = wordSize(bits);
+  const ExceptionList exceptions = ExceptionList::read(in, points.added(), tupleSize, budget);
+  const std::size_t size = wordSize(half);
   budget.take(points.size(), kPlaceComponents * size);
-  Bytes words = knownPlaces(shape.type, numbers, points.known(), bits);
-  const NumberShape inner{unsignedType(size), kPlaceComponents, bits};
+  Bytes words = knownPlaces(shape.type, numbers, points.known(), half);
+  const NumberShape inner{unsignedType(size), kPlaceComponents, half};
   decodeNumbers(inner, in, points, budget, words);
-  const OctahedralMap map(bits);
+  const OctahedralMap map(half);
   for (std::size_t tuple = points.known(); tuple < points.size(); ++tuple) {
     Place place{};
     for (std::size_t c = 0; c < kPlaceComponents; ++c) {

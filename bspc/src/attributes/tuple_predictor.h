@@ -21,18 +21,24 @@ class TuplePredictor {
   using Domain = ResidualSettings::Domain;
 
   TuplePredictor(const ResidualSettings& settings, const std::vector<Word>& words)
-      : settings_(settings), words_(words), sphere_(std::max(settings.sphereBits, 2U)) {
+      : settings_(settings), words_(words), sphere_(std::max(settings.sphereHalf, 1U)) {
     if (settings.domain == Domain::Sphere) {
       directions_.resize(words.size() / 2);
     }
   }
 
+  /// Sphere only: the words of a tuple as they are predicted and coded, and back.
+  std::array<Word, 2> toChart(const Word* tuple) const {
+    return words(chart_.toChart(sphere_, place(tuple)));
+  }
+  std::array<Word, 2> fromChart(const Word* coded) const {
+    return words(chart_.fromChart(sphere_, place(coded)));
+  }
+
   /// Sphere only: takes up the direction of a tuple that is known now.
   void learn(std::size_t rank) {
     if (settings_.domain != Domain::Sphere) return;
-    const OctahedralMap::Vector d =
-        sphere_.direction({static_cast<std::uint32_t>(words_[2 * rank]),
-                           static_cast<std::uint32_t>(words_[2 * rank + 1])});
+    const OctahedralMap::Vector d = sphere_.direction(place(words_.data() + 2 * rank));
     for (unsigned k = 0; k < 3; ++k) directions_[rank][k] = static_cast<float>(d[k]);
   }
 
@@ -50,10 +56,9 @@ class TuplePredictor {
 
   /// What is expected of it; `tuple` holds the tuple's words so far.
   Word predict(std::uint32_t i, const Word* tuple) const {
+    if (settings_.domain == Domain::Sphere) return static_cast<Word>(place_[i]);
     if (near_->ranks.empty()) return zeroWord<Word>(settings_.kind);
     switch (settings_.domain) {
-      case Domain::Sphere:
-        return static_cast<Word>(place_[i]);
       case Domain::Unit:
         return predictUnit(i, tuple);
       case Domain::Numbers:
@@ -140,7 +145,15 @@ class TuplePredictor {
       const std::array<float, 3>& d = directions_[near_->ranks[j]];
       for (unsigned k = 0; k < 3; ++k) sum[k] += near_->weights[j] * static_cast<double>(d[k]);
     }
-    place_ = sphere_.place(sum);
+    chart_ = OctahedralChart(sum);
+    place_ = chart_.place(sphere_, sum);
+  }
+
+  static OctahedralMap::Place place(const Word* tuple) {
+    return {static_cast<std::uint32_t>(tuple[0]), static_cast<std::uint32_t>(tuple[1])};
+  }
+  static std::array<Word, 2> words(const OctahedralMap::Place& place) {
+    return {static_cast<Word>(place[0]), static_cast<Word>(place[1])};
   }
 
   const ResidualSettings& settings_;
@@ -149,6 +162,7 @@ class TuplePredictor {
   std::array<double, 3> expected_{};
   std::array<std::uint32_t, 3> unitOrder_{};
   OctahedralMap sphere_;
+  OctahedralChart chart_{OctahedralMap::Vector{}};
   OctahedralMap::Place place_{};
   std::vector<std::array<float, 3>> directions_;
 };
