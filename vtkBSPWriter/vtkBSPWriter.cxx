@@ -188,6 +188,7 @@ bspc::EncodeOptions vtkBSPWriter::MakeEncodeOptions() {
   }
   if (this->Effort > 0) options.effort = static_cast<unsigned>(this->Effort);
   options.keepOrder = this->KeepOrder;
+  options.originalIds = this->StoreOriginalPointIds;
   options.layers = static_cast<unsigned>(this->NumberOfLevels);
   options.tilePoints = static_cast<std::uint64_t>(this->PointsPerTile);
   options.threads = static_cast<unsigned>(this->NumberOfThreads);
@@ -256,6 +257,7 @@ void vtkBSPWriter::PrintSelf(ostream& os, vtkIndent indent) {
   os << indent << "Effort: " << this->Effort << '\n';
   os << indent << "Method: " << (this->Method != nullptr ? this->Method : "(none)") << '\n';
   os << indent << "KeepOrder: " << this->KeepOrder << '\n';
+  os << indent << "StoreOriginalPointIds: " << this->StoreOriginalPointIds << '\n';
   os << indent << "Layout: " << this->Layout << '\n';
   os << indent << "NumberOfLevels: " << this->NumberOfLevels << '\n';
   os << indent << "PointsPerTile: " << this->PointsPerTile << '\n';

@@ -6,7 +6,8 @@
  * and z, to a .bspc file, with their arrays and the field data. Points are kept exactly where they
  * lie on a lattice and to float precision otherwise, unless GridMode says something else; arrays
  * come back bit for bit unless they are given a tolerance. The order of points is not kept unless
- * KeepOrder is on. Active normals, scalars, texture coordinates and ids are marked as such.
+ * KeepOrder is on; StoreOriginalPointIds adds an array that tells it. Active normals, scalars,
+ * texture coordinates and ids are marked as such.
  *
  * The vertices, lines and polygons of vtkPolyData are written with their arrays, unless there are
  * vertices only, which the reader makes. Other cells are an error unless DropCells is on, and so
@@ -129,6 +130,16 @@ class VTKBSPWRITER_EXPORT vtkBSPWriter : public vtkWriter {
   vtkSetMacro(KeepOrder, bool);
   vtkGetMacro(KeepOrder, bool);
   vtkBooleanMacro(KeepOrder, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Add a point array "OriginalPointIds": which point of the input each one was, ghosts that are
+   * left out not counted. A file of several processes cannot have it. Default: off.
+   */
+  vtkSetMacro(StoreOriginalPointIds, bool);
+  vtkGetMacro(StoreOriginalPointIds, bool);
+  vtkBooleanMacro(StoreOriginalPointIds, bool);
   ///@}
 
   /// Where the index stands: in front, so that every beginning of the file that ends on a layer can
@@ -260,6 +271,7 @@ class VTKBSPWRITER_EXPORT vtkBSPWriter : public vtkWriter {
   int Effort = 0;
   char* Method = nullptr;
   bool KeepOrder = false;
+  bool StoreOriginalPointIds = false;
   int Layout = PROGRESSIVE;
   int NumberOfLevels = 0;
   vtkIdType PointsPerTile = 0;

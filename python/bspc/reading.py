@@ -37,7 +37,9 @@ def read(
     partial: bool = False,
     threads: int = 0,
 ) -> PointSet:
-    """Reads a .bspc file, or bytes that hold one.
+    """Reads the points of a .bspc file, or of bytes that hold one.
+
+    The cells of a mesh are not read; ``vtkBSPReader`` gives them.
 
     level       level of detail, 0 is the coarsest; default: every point, and so is what is beyond
                 the finest, for files of a series differ in the number of their levels

@@ -53,6 +53,7 @@ def write(
                  names of the arrays that are these
     metadata     texts and arrays by name; "CRS" and "LengthUnit" have a place of their own
     keep_order   keep the order of the points (else it is the coder's)
+    original_ids  True: add an array "OriginalPointIds", the row of ``points`` that each point was
     effort       how much time smallness is worth, from 1 (quickest)
     method       name of the method that codes positions
     levels       levels of detail, 1 to 32
@@ -109,6 +110,7 @@ def _writer(
     texture_coordinates: Optional[str] = None,
     metadata: Optional[Mapping[str, Union[str, ArrayLike]]] = None,
     keep_order: bool = False,
+    original_ids: bool = False,
     effort: Optional[int] = None,
     method: Optional[str] = None,
     levels: int = 0,
@@ -130,6 +132,7 @@ def _writer(
             raise ValueError(f'there is no array "{name}" for that tolerance')
         writer.SetArrayTolerance(name, tolerance)
     writer.SetKeepOrder(keep_order)
+    writer.SetStoreOriginalPointIds(original_ids)
     if effort is not None:
         if not 1 <= effort <= 9:
             raise ValueError(f"effort is {effort} and must be 1 to 9")

@@ -146,6 +146,12 @@ class Numpy(unittest.TestCase):
         self.assertEqual(whole, bspc.encode(self.points, method="kd", threads=3))
         self.assertNotEqual(whole, bspc.encode(self.points, method="kd", streaming=True))
 
+    def test_original_ids_tell_which_row_each_point_was(self):
+        scan = bspc.read(bspc.encode(self.points, original_ids=True))
+        numpy.testing.assert_array_equal(
+            scan.points, self.points[scan.arrays["OriginalPointIds"]]
+        )
+
     def test_files_that_cannot_be_read_raise_what_is_wrong(self):
         with self.assertRaisesRegex(FileNotFoundError, "none.bspc"):
             bspc.read(self.path.with_name("none.bspc"))

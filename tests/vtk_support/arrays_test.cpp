@@ -234,6 +234,21 @@ TEST_F(Arrays, KeptOrderIsTheOrderOfTheInput) {
   expectSame(output, "Label");
 }
 
+TEST_F(Arrays, OriginalIdsTellWhichPointEachOneWas) {
+  addScan();
+  writer_->StoreOriginalPointIdsOn();
+  vtkPointData* output = roundTrip()->GetPointData();
+  vtkDataArray* rows = output->GetArray("Row");
+  vtkDataArray* ids = output->GetArray("OriginalPointIds");
+  ASSERT_NE(ids, nullptr);
+  bool moved = false;
+  for (vtkIdType i = 0; i < kPoints; ++i) {
+    ASSERT_EQ(rows->GetComponent(i, 0), ids->GetComponent(i, 0));
+    moved = moved || ids->GetComponent(i, 0) != static_cast<double>(i);
+  }
+  EXPECT_TRUE(moved);
+}
+
 TEST_F(Arrays, TheReaderReadsTheChosenOnes) {
   addScan();
   const std::string bytes = written(input_, writer_);
