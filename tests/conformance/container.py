@@ -3,8 +3,9 @@
 import struct
 
 import zstd
-from elementary import BIT, STRING, UINT32, FormatError, Reader, require, value_size
+from elementary import BIT, STRING, UINT32, Reader, require, value_size
 from grid import Grid
+from words import WordType
 from xxh3 import checksum, checksum_width
 
 SIGNATURE = bytes.fromhex("8B425350 0D0A1A0A")
@@ -66,9 +67,11 @@ class Metadata:
             if array.scalar_type == STRING:
                 values = [reader.text() for _ in range(count)]
             else:
-                values = reader.bytes(count * value_size(array.scalar_type))
-                require(array.scalar_type != BIT or all(v < 2 for v in values), "a bit is neither 0 nor 1")
-            self.field_data.append((array, values))
+                data = reader.bytes(count * value_size(array.scalar_type))
+                require(array.scalar_type != BIT or all(v < 2 for v in data), "a bit is neither 0 nor 1")
+                values = WordType(array.scalar_type).words_in(data)
+            c = array.components
+            self.field_data.append((array, [values[i : i + c] for i in range(0, count, c)]))
         require(len({a.name for a, _ in self.field_data}) == len(self.field_data), "two arrays have one name")
         reader.finish()
 
@@ -170,12 +173,15 @@ class Tile:
 class Head:
     def __init__(self, content):
         reader = Reader(content)
-        flags = reader.u8()
+        self.flags = flags = reader.u8()
         self.layers = (flags & 31) + 1
         self.streaming = bool(flags & 32)
         self.trailing = bool(flags & 128)
         require(not (self.streaming and self.trailing), "trailing blocks of a streaming file")
+        start = reader.position
         self.grid = Grid(reader)
+        self.grid_bytes = bytes(reader.data[start : reader.position])
+        self.records: list[tuple[int, bytes]] = []
         self.arrays, self.has_arrays, self.keeps_order = [], False, False
         self.mesh, self.metadata, self.has_metadata = None, Metadata(), False
         if flags & 64:
@@ -190,6 +196,7 @@ class Head:
         for _ in range(count):
             tag = reader.u8()
             content = reader.bytes(reader.varint())
+            self.records.append((tag, bytes(content)))
             require(tag > last, "records are not in order")
             last = tag
             if tag == 1:
@@ -211,7 +218,7 @@ class File:
     """A whole file: its head, its tiles with the payloads of their chunks, its mesh blocks."""
 
     def __init__(self, data):
-        self.reader = Reader(data)
+        self.reader = Reader(data, short="truncated")
         require(self.reader.left() >= 8, "shorter than its signature", "not bspc")
         require(self.reader.bytes(8) == SIGNATURE, "no signature", "not bspc")
         self.major, self.minor = self.reader.u8(), self.reader.u8()
@@ -219,7 +226,7 @@ class File:
         kind, content = self._block(covered_before=10)
         require(kind == HEAD, "no head")
         self.head = Head(content)
-        self.mesh_blocks = []
+        self.mesh_blocks, self.mesh_contents = [], []
         if self.head.streaming:
             self._read_streaming()
         else:
@@ -255,7 +262,7 @@ class File:
         for _ in range(self.head.mesh.blocks if self.head.mesh else 0):
             kind, content = self._block()
             require(kind == MESH, "a mesh block is missing")
-            self.mesh_blocks.append(MeshBlock(content, self.head.mesh))
+            self._add_mesh(content)
         if self.head.trailing:
             self._read_trailing({END})
 
@@ -285,7 +292,7 @@ class File:
                 tile.chunks = {c: self._chunk(s) for c, s in tile.chunk_sizes(self.head.layers)}
                 self.tiles.append(tile)
             elif kind == MESH and self.head.mesh:
-                self.mesh_blocks.append(MeshBlock(content, self.head.mesh))
+                self._add_mesh(content)
             elif kind == INDEX:
                 index = start
                 table = Reader(content)
@@ -297,6 +304,10 @@ class File:
         kind, content = self._block()
         require(kind == END and len(content) == 8, "no end block")
         require(int.from_bytes(content, "little") == index, "the end block names another index")
+
+    def _add_mesh(self, content):
+        self.mesh_blocks.append(MeshBlock(content, self.head.mesh))
+        self.mesh_contents.append(bytes(content))
 
     def _check_mesh(self):
         record = self.head.mesh
@@ -310,6 +321,3 @@ class File:
             require(next_tile <= len(self.tiles), "a mesh block names tiles that are not there")
             sums = [a + b for a, b in zip(sums, block.counts)]
         require(sums == record.counts, "mesh blocks do not add up")
-
-
-__all__ = ["File", "FormatError", "METHODS", "SIGNATURE"]

@@ -7,62 +7,9 @@ from __future__ import annotations
 
 import struct
 
-from bsp import Bsp
-from container import File, METHODS, Tile
-from elementary import FormatError, require
-from fast import Fast
-from partition_methods import Kd, Occupancy
-from xxh3 import checksum, xxh3
-
-Point = tuple[int, int, int]
-
-
-def geometry_of(tile: Tile):
-    """The decoder of a tile's geometry."""
-    name = METHODS.get(tile.method)
-    require(name is not None, f"unknown method {tile.method}", "unsupported")
-    require(tile.points < 1 << 32, "too many points for a tile")
-    arguments = (tile.points, tile.extent, tile.version)
-    if name == "kd":
-        return Kd(*arguments)
-    if name == "fast":
-        return Fast(*arguments, tile.layers)
-    if name == "bsp":
-        return Bsp(*arguments)
-    if name in ("octree", "gencode"):
-        return Occupancy(*arguments, name == "octree")
-    raise NotImplementedError(f"geometry of method {name}")
-
-
-class DecodedTile:
-    """A tile's points and tuples in every layer that it has, in decoded order."""
-
-    def __init__(self, tile: Tile, layers: int):
-        self.tile = tile
-        self.points: list[list[Point]] = []
-        self.counts: list[list[int]] = []
-        self.array_orders: list[list[int] | None] = []
-        geometry = geometry_of(tile)
-        for own, layer in enumerate(range(tile.lacking, layers)):
-            last = own == tile.layers - 1
-            points, counts = geometry.layer(tile.chunks[layer, 0, 0], last)
-            require(len(points) == tile.representatives[own], "a layer has other points than told")
-            require(sum(counts) == tile.points, "points do not add up")
-            require(all(p[k] <= tile.extent[k] for p in points for k in range(3)), "outside of the box")
-            self.points.append(points)
-            self.counts.append(counts)
-            order = getattr(geometry, "array_order", None)
-            self.array_orders.append(order() if order else None)
-        content = b"".join(struct.pack("<3I", *p) for p in self.points[-1])
-        require(checksum(content) == tile.content, "the content of a tile is not as told")
-
-    def at(self, layer: int) -> tuple[list[Point], list[int]]:
-        """The representatives up to a layer of the file, and their counts."""
-        own = layer - self.tile.lacking
-        if own < 0:
-            middle = tuple(e // 2 for e in self.tile.extent)
-            return [middle], [self.tile.points]
-        return self.points[own], self.counts[own]
+from container import File
+from tiles import DecodedTile, values_as_bytes
+from xxh3 import xxh3
 
 
 class Row:
@@ -93,15 +40,9 @@ class Row:
         self.number(array.semantic if array.semantic <= 5 else 0)
         self.real(array.tolerance)
 
-    def values(self, array, values) -> None:
-        """Bytes of numbers, or a list of strings."""
-        if isinstance(values, list):
-            self.number(len(values) // array.components)
-            for text in values:
-                self.text(text)
-        else:
-            self.number(len(values) // (array.value_size() * array.components))
-            self.parts.append(bytes(values))
+    def values(self, array, tuples: list) -> None:
+        self.number(len(tuples))
+        self.parts.append(values_as_bytes(array, tuples))
 
     def hash(self) -> str:
         return f"{xxh3(b''.join(self.parts)):016x}"
@@ -135,22 +76,40 @@ class Content:
         return row.hash()
 
     def _add_layer(self, row: Row, layer: int) -> None:
-        last = layer == self.head.layers - 1
-        points, counts = [], []
+        head, last = self.head, layer == self.head.layers - 1
+        points: list = []
+        low_halves: list = []
+        counts: list[int] = []
+        tuples: list[list] = [[] for _ in head.arrays]
+        with_values = all(all(layer in t for t in tile.tuples) for tile in self.tiles)
         for tile in self.tiles:
             own, own_counts = tile.at(layer)
             lower = tile.tile.lower
-            points += [tuple(p[k] + lower[k] for k in range(3)) for p in own]
+            order = range(len(own))
+            if last and head.keeps_order:
+                order = tile.order
+            points += [tuple(own[i][k] + lower[k] for k in range(3)) for i in order]
             counts += own_counts
-        if self.head.arrays or self.head.grid.has_low_halves() or self.head.keeps_order or self.head.mesh:
-            raise NotImplementedError("arrays, order and cells")
-        grid = self.head.grid
+            if not with_values:
+                continue
+            arrays = [[t[layer][i] for i in order] for t in tile.tuples]
+            if head.grid.has_low_halves():
+                low_halves += arrays.pop(0)
+            for values, new in zip(tuples, arrays):
+                values += new
         row.number(len(points))
-        for p in points:
-            row.parts.append(struct.pack("<3d", *(grid.coordinate(k, p[k]) for k in range(3))))
+        for i, p in enumerate(points):
+            low = low_halves[i] if low_halves else (0, 0, 0)
+            row.parts.append(struct.pack("<3d", *(head.grid.coordinate(k, p[k], low[k]) for k in range(3))))
         row.numbers(counts)
+        for array, values in zip(head.arrays, tuples):
+            if with_values:
+                row.text(array.name)
+                row.values(array, values)
         if last:
-            row.numbers([0, 0, 0])
+            self._add_cells(row)
 
-
-__all__ = ["Content", "FormatError"]
+    def _add_cells(self, row: Row) -> None:
+        if self.head.mesh:
+            raise NotImplementedError("cells of a mesh")
+        row.numbers([0, 0, 0])

@@ -60,8 +60,9 @@ def float32(value):
 class Reader:
     """Reads elementary types from bytes, from the first on."""
 
-    def __init__(self, data, position=0, end=None):
-        self.data = data
+    def __init__(self, data, position=0, end=None, short="corrupt"):
+        """`short` is the kind of error if the data end early: only those of a file are truncated."""
+        self.data, self.short = data, short
         self.position = position
         self.end = len(data) if end is None else end
 
@@ -69,7 +70,7 @@ class Reader:
         return self.end - self.position
 
     def bytes(self, size):
-        require(size <= self.left(), "content ends early", "truncated")
+        require(size <= self.left(), "content ends early", self.short)
         self.position += size
         return self.data[self.position - size : self.position]
 

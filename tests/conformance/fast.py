@@ -66,7 +66,7 @@ class Fast:
         return x, y, z
 
     def _set(self, body: bytes, n: int) -> list[Point]:
-        require(body, "a set without its kind", "truncated")
+        require(body, "a set without its kind")
         kind, levels = body[0] & 15, body[0] >> 4
         require(kind <= 2, "an unknown kind of set", "unsupported")
         require(levels <= (6 if kind == 1 else 0), "wrong extra levels")

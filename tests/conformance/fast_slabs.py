@@ -271,15 +271,12 @@ class SlabSet:
                 errors = [w, errors[0]]
                 w += surface.at(u, v)
             slab.last = w & 0xFFFFFFFF
-            self._place(slab, (u, v, slab.last))
+            self.points.append((u, v, slab.last))  # made whole by _cut_bits
         if surface is None:
-            slab.height, slab.slopes, slab.centre = slab.last << 16, [0, 0], list(places[-1])
+            slab.height, slab.centre = slab.last << 16, list(places[-1])  # the slopes stay
         else:
             surface.keep(slab)
         self._cut_bits(slab, len(places))
-
-    def _place(self, slab: Slab, at: tuple[int, int, int]) -> None:
-        self.points.append(at)  # made whole by _cut_bits
 
     def _cut_bits(self, slab: Slab, count: int) -> None:
         for i in range(len(self.points) - count, len(self.points)):

@@ -34,7 +34,9 @@ std::vector<std::uint32_t> hilbertSequence(const std::vector<GridPoint>& points,
     if (last - first > 1) {
       const auto begin = sequence.begin() + static_cast<std::ptrdiff_t>(first);
       std::sort(begin, begin + static_cast<std::ptrdiff_t>(last - first),
-                [&points](std::uint32_t a, std::uint32_t b) { return points[a] < points[b]; });
+                [&points](std::uint32_t a, std::uint32_t b) {
+                  return points[a] != points[b] ? points[a] < points[b] : a < b;
+                });
     }
     first = last;
   }

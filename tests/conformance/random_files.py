@@ -1,0 +1,94 @@
+"""Encodes random models and compares what both decoders find in the files.
+
+    BSPC=build/dev/bin/bspc CONTENT_OF=build/dev/bin/content_of \\
+      python3 tests/conformance/random_files.py [--seconds S] [--first SEED] [--count N]
+
+ends with an error if they differ, and tells the seed; `--first SEED --count 1 --keep FILE` makes
+that file again.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from collections import Counter
+
+import random_models
+from content import Content
+from elementary import FormatError
+
+
+class Comparison:
+    def __init__(self, bspc: str, content_of: str, folder: str):
+        self.bspc = bspc
+        self.model, self.coded = os.path.join(folder, "in.ply"), os.path.join(folder, "out.bspc")
+        self.library = subprocess.Popen([content_of], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+
+    def close(self) -> None:
+        self.library.stdin.close()
+        self.library.wait()
+        self.library.stdout.close()
+
+    def encode(self, seed: int) -> bytes | None:
+        """The file of a seed; None if its options do not fit its model."""
+        data, options = random_models.model(seed)
+        with open(self.model, "wb") as stream:
+            stream.write(data)
+        run = subprocess.run(
+            [self.bspc, "encode", self.model, self.coded, "--force", "--quiet", "--threads", "1", *options],
+            capture_output=True,
+        )
+        if run.returncode:
+            return None
+        with open(self.coded, "rb") as stream:
+            return stream.read()
+
+    def outcome(self, seed: int) -> tuple[str, str]:
+        """"same", "refused by the encoder" or "different", and what was found."""
+        data = self.encode(seed)
+        if data is None:
+            return "refused by the encoder", ""
+        self.library.stdin.write(self.coded + "\n")
+        self.library.stdin.flush()
+        wanted = self.library.stdout.readline().strip().split("\t")[1:]
+        try:
+            found = Content(data).hash()
+        except FormatError as error:
+            found = f"{error.kind}: {error}"
+        if wanted[:2] == ["good", found]:
+            return "same", found
+        return "different", f"library {wanted}, second decoder {found}"
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--seconds", type=float, default=600)
+    parser.add_argument("--first", type=int, default=0)
+    parser.add_argument("--count", type=int, default=sys.maxsize)
+    parser.add_argument("--keep", help="a copy of the last file")
+    arguments = parser.parse_args()
+    outcomes: Counter = Counter()
+    end = time.monotonic() + arguments.seconds
+    with tempfile.TemporaryDirectory() as folder:
+        comparison = Comparison(os.environ["BSPC"], os.environ["CONTENT_OF"], folder)
+        seed = arguments.first
+        while seed < arguments.first + arguments.count and time.monotonic() < end:
+            outcome, what = comparison.outcome(seed)
+            outcomes[outcome] += 1
+            if outcome == "different":
+                print(f"seed {seed}: {what}\n  {' '.join(random_models.model(seed)[1])}", flush=True)
+            seed += 1
+        if arguments.keep:
+            os.replace(comparison.coded, arguments.keep)
+        comparison.close()
+    print(f"seeds {arguments.first} to {seed - 1}: " + ", ".join(f"{n} {o}" for o, n in outcomes.items()))
+    # Nothing compared is no agreement.
+    return 1 if outcomes["different"] or outcomes["same"] < outcomes["refused by the encoder"] else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
