@@ -46,6 +46,9 @@ class Package(unittest.TestCase):
         depends = run("dpkg-deb", "--field", self.package, "Depends")
         for package in ("libvtk9.1", "libc6", "python3-vtk9", "python3-numpy"):
             self.assertIn(package, depends)
+        suggests = run("dpkg-deb", "--field", self.package, "Suggests")
+        for package in ("libzstd-dev", "libvtk9-dev"):  # to build on it
+            self.assertIn(package, suggests)
 
     def test_the_command_runs(self):
         model = SOURCE / "Testing" / "Data" / "terrain_lines.ply"
