@@ -3,12 +3,19 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
+options=()
+if [[ ${1-} == --positions-first ]]; then
+  options+=("$1")
+  shift
+fi
 if (($# > 0)); then
   cat <<'END'
-Usage: benchmarks/meshes.sh
+Usage: benchmarks/meshes.sh [--positions-first]
 
 Builds draco_mesh_benchmark and runs it on the meshes of Debian's package libcgal-demo (24 MB, fetched
 once) that have at least 1,000 triangles: bytes of positions and faces, bspc's and Draco's, at 12 bits.
+An asterisk says that bspc coded positions along the faces, which then stand among the rest; with
+--positions-first it never does.
 END
   [[ $1 == -h || $1 == --help ]] && exit 0
   exit 2
@@ -26,4 +33,4 @@ for model in build/demo/data/meshes/*.off; do
   faces=$(awk '{ sub(/#.*/, ""); sub(/^[A-Z]*OFF/, "") } /[0-9]/ { print $2; exit }' "$model")
   ((faces < 1000)) || models+=("$model")
 done
-build/release/bin/draco_mesh_benchmark "${models[@]}"
+build/release/bin/draco_mesh_benchmark "${options[@]}" "${models[@]}"

@@ -1,6 +1,8 @@
 // Sizes of whole meshes beside those of Draco's Edgebreaker, both at 12 bits (draco_encoder -qp 12
-// -cl 10): run draco_mesh_benchmark FILE.off...
+// -cl 10): run draco_mesh_benchmark [--positions-first] FILE.off...
 //
+// bspc codes a mesh the shorter way: faces from the positions, or positions along the faces (an
+// asterisk; the faces then stand among the rest). --positions-first leaves it the first way only.
 // Both get the same positions and faces, as OFF files of triangles have them (polygons are cut into
 // fans, as Draco holds triangles only). A line tells bytes of positions and of faces of either, and
 // whether Draco kept all vertices and faces: it merges points at the same place and drops faces
@@ -89,6 +91,7 @@ struct Sizes {
   std::size_t whole = 0;
   std::size_t faces = 0;
   bool kept = true;
+  bool alongFaces = false;
 };
 
 /// Tells how many bytes the connectivity takes.
@@ -147,7 +150,7 @@ Sizes withDraco(const Model& model) {
   if (!decoded.ok()) throw std::runtime_error("Draco: " + decoded.status().error_msg_string());
   const draco::Mesh& back = *decoded.value();
   return {buffer.size(), encoder.connectivity(),
-          back.num_faces() == model.triangles() && back.num_points() == model.points()};
+          back.num_faces() == model.triangles() && back.num_points() == model.points(), false};
 }
 
 std::vector<std::array<std::uint64_t, 3>> sortedFaces(const Cells& faces,
@@ -176,14 +179,15 @@ Sizes withBspc(const Model& model, const EncodeOptions& options) {
   if (sortedFaces(decoded.mesh.faces, report.order) != sortedFaces(model.cells.faces, {})) {
     throw std::runtime_error("bspc: other faces came back");
   }
-  return {bytes.size(), report.meshBytes, true};
+  return {bytes.size(), report.meshBytes, true, report.method == Method::Surface};
 }
 
-void measure(const std::string& name) {
+void measure(const std::string& name, bool positionsFirst) {
   const Model model = readOff(name);
   EncodeOptions options;
   options.grid = GridRequest::withBits(kBits);
   options.effort = kMostEffort;
+  if (positionsFirst) options.method = Method::Predictive;
   options.layers = 1;
   options.wantOrder = true;
   const Sizes bspc = withBspc(model, options);
@@ -191,13 +195,13 @@ void measure(const std::string& name) {
   const auto perTriangle = [&](std::size_t bytes) {
     return 8.0 * static_cast<double>(bytes) / static_cast<double>(model.triangles());
   };
-  std::printf("%-24s %8llu %9zu | %9zu %9zu %7.3f | %9zu %9zu %7.3f | %6.3f%s\n",
-              name.substr(name.rfind('/') + 1).c_str(),
-              static_cast<unsigned long long>(model.points()), model.triangles(),
-              bspc.whole - bspc.faces, bspc.faces, perTriangle(bspc.faces),
-              draco.whole - draco.faces, draco.faces, perTriangle(draco.faces),
-              static_cast<double>(bspc.whole) / static_cast<double>(draco.whole),
-              draco.kept ? "" : " (Draco changed it)");
+  std::printf(
+      "%-24s %8llu %9zu | %9zu %9zu %7.3f%c| %9zu %9zu %7.3f | %6.3f%s\n",
+      name.substr(name.rfind('/') + 1).c_str(), static_cast<unsigned long long>(model.points()),
+      model.triangles(), bspc.whole - bspc.faces, bspc.faces, perTriangle(bspc.faces),
+      bspc.alongFaces ? '*' : ' ', draco.whole - draco.faces, draco.faces, perTriangle(draco.faces),
+      static_cast<double>(bspc.whole) / static_cast<double>(draco.whole),
+      draco.kept ? "" : " (Draco changed it)");
   std::fflush(stdout);
 }
 
@@ -208,9 +212,10 @@ int main(int argc, char** argv) {
   std::printf("%-24s %8s %9s | %9s %9s %7s | %9s %9s %7s | %6s\n", "mesh", "points", "triangles",
               "bspc rest", "faces", "bit/tri", "Draco", "faces", "bit/tri", "ratio");
   int failures = 0;
-  for (int i = 1; i < argc; ++i) {
+  const bool positionsFirst = argc > 1 && std::string(argv[1]) == "--positions-first";
+  for (int i = positionsFirst ? 2 : 1; i < argc; ++i) {
     try {
-      bspc::measure(argv[i]);
+      bspc::measure(argv[i], positionsFirst);
     } catch (const std::exception& error) {
       std::fprintf(stderr, "%s: %s\n", argv[i], error.what());
       ++failures;

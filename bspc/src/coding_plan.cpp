@@ -61,6 +61,7 @@ unsigned chooseLayers(const EncodeOptions& options, Method method, std::uint64_t
   if (options.layers != 0) return options.layers;
   if (method == Method::Fast) return fastLayers(points, tilePoints);
   if (method == Method::Predictive) return points < kLayeredPredictivePoints ? 1 : 4;
+  if (method == Method::Surface) return 1;  // its coarse layers show nothing
   return quarteredLayers(std::min(points, tilePoints));
 }
 

@@ -84,6 +84,7 @@ void SetEncoder::finish(FinishedTile tile) {
     if (options_.keepOrder) std::sort(tile.sources.begin(), tile.sources.end());
     report_.order.insert(report_.order.end(), tile.sources.begin(), tile.sources.end());
   }
+  faces_ = std::move(tile.faces);
   writer_.addTile(std::move(tile.record), std::move(tile.chunks));
 }
 

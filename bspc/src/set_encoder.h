@@ -33,6 +33,9 @@ class SetEncoder {
   void encode(Span<const GridPoint> points, const std::vector<std::uint64_t>& sourceIndex,
               const PointSetView* original);
 
+  /// The faces that the payload of the last tile's points holds, over its decoded points.
+  const Cells& faces() const { return faces_; }
+
  private:
   /// Decides whether the order of the points is stored for the sake of their arrays.
   void considerOrder(Span<const GridPoint> points);
@@ -55,6 +58,7 @@ class SetEncoder {
   EncodeReport& report_;
   const std::vector<std::uint64_t>* sourceIndex_ = nullptr;
   const PointSetView* original_ = nullptr;
+  Cells faces_;
 };
 
 }  // namespace bspc

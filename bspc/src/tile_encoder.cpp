@@ -83,6 +83,7 @@ FinishedTile TileEncoder::encode(Span<const GridPoint> points,
     for (const std::uint32_t i : coded.order) finished.sources.push_back(sources[i]);
   }
   finished.decoded = std::move(coded.decoded);
+  finished.faces = std::move(coded.faces);
   if (arrays_.hasWork()) {
     const std::vector<GridPoint> own =
         finished.decoded.empty() ? decodedPoints(tile, coded.order) : std::vector<GridPoint>();

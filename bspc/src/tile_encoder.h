@@ -23,6 +23,7 @@ struct FinishedTile {
   std::vector<double> arrayErrors;  ///< greatest of each array
   /// See EncodedTile: where points stand after a lossy coding.
   std::vector<GridPoint> decoded;
+  Cells faces;  ///< that the payload of its points holds, over the decoded points
 };
 
 /// Codes tiles, on any number of threads at a time.

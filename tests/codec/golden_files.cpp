@@ -1,5 +1,6 @@
 #include "codec/golden_files.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <random>
 
@@ -20,6 +21,31 @@ std::vector<double> terrain(unsigned side, double scale, double offset) {
     }
   }
   return xyz;
+}
+
+/// Faces between the points of terrain(): quadrilaterals here, triangles there, with a hole, one
+/// turned around, one there twice, and points without any.
+MeshCells terrainFaces(unsigned side) {
+  MeshCells cells;
+  const auto add = [&](std::vector<std::uint32_t> face) { cells.faces.add(face); };
+  for (unsigned y = 0; y + 3 < side; ++y) {
+    for (unsigned x = 0; x + 1 < side; ++x) {
+      const std::uint32_t a = y * side + x;
+      if (x == y && x % 7 == 3) continue;
+      if (x > side / 2) {
+        add({a, a + 1, a + side + 1, a + side});
+      } else if ((x * y) % 3 == 1) {
+        add({a, a + 1, a + side});
+        add({a + 1, a + side + 1, a + side});
+      } else {
+        add({a, a + 1, a + side + 1});
+        add({a, a + side + 1, a + side});
+      }
+    }
+  }
+  std::reverse(cells.faces.indices.begin(), cells.faces.indices.begin() + 3);
+  add({0, 1, side + 1});
+  return cells;
 }
 
 std::vector<double> noise(unsigned count, std::uint64_t range) {
@@ -50,9 +76,10 @@ std::vector<GoldenFile> goldenFiles() {
   std::vector<GoldenFile> files;
   for (const Method method : availableMethods()) {
     const std::string name = methodName(method);
+    if (method == Method::Surface) continue;  // without faces it is nothing of its own
     const auto add = [&](const std::string& what, std::vector<double> xyz, ScalarType type,
                          Layout layout, unsigned layers, const GridRequest& grid) {
-      GoldenFile file{std::string(name).append("_").append(what), std::move(xyz), type, {}, {}};
+      GoldenFile file{std::string(name).append("_").append(what), std::move(xyz), type, {}, {}, {}};
       file.options.method = method;
       file.options.layout = layout;
       file.options.layers = layers;
@@ -80,6 +107,16 @@ std::vector<GoldenFile> goldenFiles() {
     }
     add("empty", {}, ScalarType::Float32, Layout::Progressive, 1, any);
   }
+  for (const Method method : {Method::Kd, Method::Surface}) {
+    GoldenFile file{std::string(methodName(method)).append("_mesh"),
+                    terrain(30, 1, 0),
+                    ScalarType::Float32,
+                    {},
+                    {},
+                    terrainFaces(30)};
+    file.options.method = method;
+    files.push_back(std::move(file));
+  }
   return files;
 }
 
@@ -93,8 +130,11 @@ Bytes encodeGolden(const GoldenFile& file, DecodedOrder* decoded) {
   PointSetView points = file.type == ScalarType::Float32 ? PointSetView(narrow.data(), count)
                                                          : PointSetView(file.xyz.data(), count);
   for (const ArrayValues& array : file.arrays) points.addArray(array.view());
+  if (!file.cells.empty()) points.setMesh(&file.cells);
   report = encode(points, sink, options);
   if (decoded == nullptr) return sink.take();
+  decoded->points = report.order;
+  decoded->cells = report.cellOrder;
   for (const std::uint64_t i : report.order) {
     for (std::size_t k = 0; k < 3; ++k) decoded->xyz.push_back(file.xyz[3 * i + k]);
     std::string tuples;

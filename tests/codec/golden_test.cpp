@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 
@@ -39,6 +40,24 @@ TEST_P(Golden, DecodesToTheFixedPoints) {
     std::string tuples;
     for (const ArrayValues& array : decoded.arrays) tuples += test::tupleOf(array, i);
     ASSERT_EQ(tuples, wanted.tuples[i]);
+  }
+}
+
+TEST_P(Golden, DecodesToTheFixedFaces) {
+  const test::GoldenFile& file = GetParam();
+  test::DecodedOrder wanted;
+  test::encodeGolden(file, &wanted);
+  const Bytes bytes = readFile(BSPC_TEST_DATA "/golden/" + file.name + ".bspc");
+  const DecodedPoints decoded = test::open(bytes).decode();
+  ASSERT_EQ(decoded.mesh.faces.size(), file.cells.faces.size());
+  for (std::size_t i = 0; i < decoded.mesh.faces.size(); ++i) {
+    std::vector<std::uint64_t> face;
+    for (const std::uint32_t v : decoded.mesh.faces[i]) face.push_back(wanted.points[v]);
+    std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
+    const auto given = file.cells.faces[static_cast<std::size_t>(wanted.cells[i])];
+    std::vector<std::uint64_t> cycle(given.begin(), given.end());
+    std::rotate(cycle.begin(), std::min_element(cycle.begin(), cycle.end()), cycle.end());
+    ASSERT_EQ(face, cycle);
   }
 }
 

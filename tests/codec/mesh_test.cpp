@@ -257,6 +257,107 @@ TEST_P(MeshFile, DamagedIsAnError) {
   }
 }
 
+TEST_P(MeshFile, FollowsItsFaces) {
+  for (const Mesh& mesh : meshes()) {
+    SCOPED_TRACE(mesh.name);
+    const MeshInput input(mesh);
+    EncodeOptions options;
+    options.method = Method::Surface;
+    options.layout = GetParam();
+    options.wantOrder = true;
+    EncodeReport report;
+    const Bytes file = encoded(input.view(true), options, &report);
+    Decoder decoder = opened(file);
+    const DecodedPoints decoded = decoder.decode();
+    expectSame(input, report, decoded);
+    EXPECT_EQ(faceShapes(placesOf(decoder, decoded), decoded.mesh.faces),
+              faceShapes(mesh.points, mesh.cells.faces));
+    if (mesh.cells.empty()) continue;
+    for (std::size_t i = 0; i < mesh.cells.size(); ++i) {
+      ASSERT_EQ(test::tupleOf(decoded.cellArrays[0], i),
+                test::tupleOf(input.numbers, report.cellOrder[i]));
+    }
+  }
+}
+
+TEST_P(MeshFile, FollowsItsFacesNoFurtherThanItCan) {
+  // Several tiles, kept order, levels: the faces are coded from the places of their points.
+  const Mesh mesh = test::torus(20, 12, true);
+  const MeshInput input(mesh);
+  for (int way = 0; way < 3; ++way) {
+    SCOPED_TRACE(way);
+    EncodeOptions options;
+    options.method = Method::Surface;
+    options.layout = GetParam();
+    options.keepOrder = way == 0;
+    if (way == 1) options.tilePoints = 50;
+    if (way == 2) options.layers = 3;
+    const Bytes file = encoded(input.view(), options);
+    Decoder decoder = opened(file);
+    const DecodedPoints decoded = decoder.decode();
+    EXPECT_EQ(faceShapes(placesOf(decoder, decoded), decoded.mesh.faces),
+              faceShapes(mesh.points, mesh.cells.faces));
+    DecodeOptions coarse;
+    coarse.level = 0;
+    if (way == 2) {
+      EXPECT_EQ(decoder.decode(coarse).points.size(), 1U);
+    }
+  }
+}
+
+TEST_P(MeshFile, FollowsItsFacesIfThatIsShorter) {
+  const Mesh mesh = test::smoothNet(30);
+  const MeshInput input(mesh);
+  EncodeOptions options;
+  options.layout = GetParam();
+  EncodeReport report;
+  const Bytes shorter = encoded(input.view(), options, &report);
+  EXPECT_EQ(report.method, Method::Surface);
+  EXPECT_EQ(report.fileBytes, shorter.size());
+  options.method = Method::Predictive;
+  EXPECT_LT(shorter.size(), encoded(input.view(), options, &report).size());
+  EXPECT_EQ(report.method, Method::Predictive);
+  const Decoder decoder = opened(shorter);
+  EXPECT_EQ(decoder.info().tiles[0].method, Method::Surface);
+}
+
+TEST_P(MeshFile, IsJoinedAlongItsFaces) {
+  std::vector<std::shared_ptr<ByteSource>> files;
+  std::vector<Bytes> kept;
+  std::vector<std::vector<GridPoint>> shapes;
+  for (std::uint32_t part = 0; part < 3; ++part) {
+    Mesh mesh = part == 1 ? test::torus(9, 8, false) : test::terrain(part, 8);
+    for (GridPoint& p : mesh.points) p[0] += 50000 - 20000 * part;
+    for (const auto& shape : faceShapes(mesh.points, mesh.cells.faces)) shapes.push_back(shape);
+    EncodeOptions options;
+    options.method = part == 0 ? Method::Kd : Method::Surface;
+    if (!kept.empty()) options.grid = GridRequest::onGrid(opened(kept[0]).info().grid);
+    kept.push_back(encoded(MeshInput(mesh).view(), options));
+  }
+  files.reserve(kept.size());
+  for (const Bytes& file : kept) files.push_back(std::make_shared<MemorySource>(file));
+  MemorySink sink;
+  JoinOptions options;
+  options.layout = GetParam();
+  join(files, sink, options);
+  Decoder decoder = opened(sink.bytes());
+  std::sort(shapes.begin(), shapes.end());
+  const DecodedPoints decoded = decoder.decode();
+  EXPECT_EQ(faceShapes(placesOf(decoder, decoded), decoded.mesh.faces), shapes);
+}
+
+TEST_P(MeshFile, DamagedAlongItsFacesIsAnError) {
+  EncodeOptions options;
+  options.layout = GetParam();
+  options.method = Method::Surface;
+  const Bytes file = encoded(MeshInput(test::terrain(1, 5)).view(true), options);
+  for (std::size_t i = 0; i < file.size(); ++i) {
+    Bytes damaged = file;
+    damaged[i] ^= 0x11;
+    EXPECT_THROW(opened(damaged).decode(), Error) << "byte " << i;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Layouts, MeshFile,
                          testing::Values(Layout::Progressive, Layout::Streaming));
 

@@ -10,7 +10,7 @@ from xxh3 import checksum, checksum_width
 
 SIGNATURE = bytes.fromhex("8B425350 0D0A1A0A")
 HEAD, TILE, INDEX, END, MESH = 1, 2, 3, 4, 5
-METHODS = {1: "kd", 2: "fast", 3: "bsp", 4: "octree", 5: "gencode", 6: "predictive"}
+METHODS = {1: "kd", 2: "fast", 3: "bsp", 4: "octree", 5: "gencode", 6: "predictive", 7: "surface"}
 
 
 class ArrayDescription:

@@ -5,6 +5,8 @@
 
 #include "bspc/error.h"
 #include "connectivity/connectivity_coder.h"
+#include "connectivity/mesh_preparation.h"
+#include "connectivity/surface_faces.h"
 #include "support/meshes.h"
 
 namespace bspc::connectivity {
@@ -177,6 +179,68 @@ TEST(MeshCoder, SplitsSoupsCheaply) {
   CodingWishes wishes;
   wishes.mayRenumber = true;
   EXPECT_LT(bitsPerFace(test::soup(test::remeshedSphere(1, 5)), wishes), 0.5);
+}
+
+/// Faces that method surface goes along.
+Cells regularFaces(const Mesh& mesh) {
+  const PreparedFaces prepared = prepareFaces(mesh.cells.faces);
+  Cells regular;
+  for (const std::uint32_t i : prepared.regular) regular.add(prepared.faces[i]);
+  return regular;
+}
+
+TEST(SurfaceFaces, ComeBackInTheNumbersOfTheirVertices) {
+  for (const Mesh& mesh : allMeshes()) {
+    SCOPED_TRACE(mesh.name);
+    const Cells regular = regularFaces(mesh);
+    const auto points = static_cast<std::uint32_t>(mesh.points.size());
+    entropy::SymbolWriter writer;
+    const SurfaceFaces coded = encodeSurface(writer, regular, points);
+    const Bytes payload = writer.finish();
+    entropy::SymbolReader reader(payload);
+    const SurfaceFaces decoded = decodeSurface(reader, points, [](std::uint64_t) {});
+    reader.finish();
+    EXPECT_EQ(decoded.faces.indices, coded.faces.indices);
+    EXPECT_EQ(decoded.faces.ends, coded.faces.ends);
+    ASSERT_EQ(decoded.vertices, coded.given.size());
+    Cells given = decoded.faces;
+    for (std::uint32_t& v : given.indices) v = coded.given[v];
+    EXPECT_EQ(test::canonical(given), test::canonical(regular));
+  }
+}
+
+TEST(SurfaceFaces, AreSafeOnDamagedPayloads) {
+  std::mt19937_64 random(6);
+  for (const Mesh& mesh : allMeshes()) {
+    entropy::SymbolWriter writer;
+    const auto points = static_cast<std::uint32_t>(mesh.points.size());
+    encodeSurface(writer, regularFaces(mesh), points);
+    const Bytes payload = writer.finish();
+    for (int i = 0; i < 24; ++i) {
+      Bytes damaged = payload;
+      if (i % 4 == 0) damaged.resize(random() % (damaged.size() + 1));
+      for (std::size_t k = 0; k < 1 + static_cast<std::size_t>(i) % 3 && !damaged.empty(); ++k) {
+        damaged[random() % damaged.size()] = static_cast<std::uint8_t>(random());
+      }
+      try {
+        entropy::SymbolReader reader(damaged);
+        const SurfaceFaces decoded = decodeSurface(reader, points, [](std::uint64_t bytes) {
+          if (bytes > (1 << 23)) throw Error(ErrorCode::LimitExceeded, "too much");
+        });
+        ASSERT_LE(decoded.vertices, points);
+        for (const std::uint32_t v : decoded.faces.indices) ASSERT_LT(v, decoded.vertices);
+      } catch (const Error&) {
+      }
+    }
+  }
+}
+
+TEST(SurfaceFaces, CostLittleWhereTheyAreRegular) {
+  const Mesh mesh = test::torus(100, 50, true);
+  entropy::SymbolWriter writer;
+  encodeSurface(writer, mesh.cells.faces, static_cast<std::uint32_t>(mesh.points.size()));
+  EXPECT_LT(8.0 * static_cast<double>(writer.finish().size()),
+            0.2 * static_cast<double>(mesh.cells.faces.size()));
 }
 
 TEST(MeshCoder, MeasuresAlongUnequalSteps) {

@@ -8,7 +8,10 @@
 #include <random>
 
 #include "bspc/error.h"
+#include "connectivity/mesh_preparation.h"
 #include "geometry/geometry_method.h"
+#include "geometry/surface/surface_method.h"
+#include "support/meshes.h"
 #include "support/point_sets.h"
 #include "support/tiles.h"
 
@@ -221,6 +224,108 @@ TEST_P(EveryMethod, SurvivesRandomBytes) {
 
 INSTANTIATE_TEST_SUITE_P(Geometry, EveryMethod, testing::ValuesIn(availableMethods()),
                          [](const auto& method) { return methodName(method.param); });
+
+/// A tile whose faces method surface goes along.
+class SurfaceTile {
+ public:
+  explicit SurfaceTile(test::Mesh mesh) : mesh_(std::move(mesh)), tile_(tileOf(mesh_.points, 1)) {
+    const connectivity::PreparedFaces prepared = connectivity::prepareFaces(mesh_.cells.faces);
+    for (const std::uint32_t i : prepared.regular) faces_.add(prepared.faces[i]);
+    tile_.wishes.faces = &faces_;
+  }
+  SurfaceTile(const SurfaceTile&) = delete;
+  SurfaceTile& operator=(const SurfaceTile&) = delete;
+
+  const test::Mesh& mesh() const { return mesh_; }
+  const TileInput& tile() const { return tile_; }
+  const Cells& faces() const { return faces_; }
+
+ private:
+  test::Mesh mesh_;
+  Cells faces_;
+  TileInput tile_;
+};
+
+std::vector<test::Mesh> surfaces() {
+  std::vector<test::Mesh> meshes;
+  for (test::Mesh& mesh : test::oddMeshes()) {
+    if (!mesh.points.empty()) meshes.push_back(std::move(mesh));
+  }
+  meshes.push_back(test::torus(24, 12, false));
+  meshes.push_back(test::remeshedSphere(1, 2));
+  test::Mesh large = test::torus(24, 12, true);
+  for (GridPoint& p : large.points) p[1] += p[1] % 2 == 0 ? 0 : 4000000000U;
+  meshes.push_back(std::move(large));
+  return meshes;
+}
+
+TEST(SurfaceMethodTest, RestoresPointsAndFaces) {
+  const GeometryMethod& method = *findGeometryMethod(Method::Surface);
+  for (const test::Mesh& mesh : surfaces()) {
+    SCOPED_TRACE(mesh.name);
+    const SurfaceTile surface(mesh);
+    const TileInput& tile = surface.tile();
+    const EncodedTile coded = method.encode(tile, {});
+    const DecodedTile decoded = method.decode(toDecode(tile, coded, 1), {});
+    ASSERT_EQ(decoded.points.size(), mesh.points.size());
+    for (std::size_t j = 0; j < decoded.points.size(); ++j) {
+      GridPoint p = mesh.points[coded.order[j]];
+      for (std::size_t k = 0; k < 3; ++k) p[k] -= tile.lower[k];
+      ASSERT_EQ(decoded.points[j], p);
+    }
+    Cells faces = facesOfSurface(coded.layers[0], mesh.points.size(), std::uint64_t{1} << 28);
+    EXPECT_EQ(faces.indices, coded.faces.indices);
+    for (std::uint32_t& v : faces.indices) v = coded.order[v];
+    EXPECT_EQ(test::canonical(faces), test::canonical(surface.faces()));
+  }
+}
+
+TEST(SurfaceMethodTest, SurvivesDamagedStreams) {
+  const GeometryMethod& method = *findGeometryMethod(Method::Surface);
+  std::mt19937_64 random(14);
+  for (const test::Mesh& mesh : surfaces()) {
+    const SurfaceTile surface(mesh);
+    const EncodedTile coded = method.encode(surface.tile(), {});
+    for (unsigned trial = 0; trial < 12; ++trial) {
+      Bytes payload = coded.layers[0];
+      for (std::uint64_t flips = 1 + random() % 4; flips > 0 && !payload.empty(); --flips) {
+        payload[random() % payload.size()] ^= static_cast<std::uint8_t>(1U << (random() % 8));
+        if (random() % 4 == 0) payload.resize(random() % (payload.size() + 1));
+      }
+      TileToDecode decode = toDecode(surface.tile(), coded, 1);
+      decode.payloads.assign(1, payload);
+      if (random() % 4 == 0) decode.points = 1 + random() % 5000;
+      if (random() % 4 == 0) decode.extent[random() % 3] = static_cast<std::uint32_t>(random());
+      decode.maxPoints = 10000;
+      decode.maxBytes = 1 << 24;
+      try {
+        for (const GridPoint& p : method.decode(decode, {}).points) {
+          for (std::size_t k = 0; k < 3; ++k) ASSERT_LE(p[k], decode.extent[k]);
+        }
+      } catch (const Error&) {
+      }
+    }
+  }
+}
+
+TEST(SurfaceMethodTest, StopsAtTheMemoryLimit) {
+  const GeometryMethod& method = *findGeometryMethod(Method::Surface);
+  const SurfaceTile surface(test::torus(60, 40, true));
+  const EncodedTile coded = method.encode(surface.tile(), {});
+  TileToDecode decode = toDecode(surface.tile(), coded, 1);
+  decode.maxBytes = std::uint64_t{9} << 19;
+  EXPECT_THROW(method.decode(decode, {}), Error);
+  EXPECT_THROW(facesOfSurface(coded.layers[0], decode.points, std::uint64_t{4} << 20), Error);
+}
+
+TEST(SurfaceMethodTest, PredictsVerticesAlongTheFaces) {
+  const SurfaceTile surface(test::smoothNet(30));
+  const EncodedTile along = findGeometryMethod(Method::Surface)->encode(surface.tile(), {});
+  TileInput alone = surface.tile();
+  alone.wishes.effort = 9;
+  const EncodedTile octree = findGeometryMethod(Method::Predictive)->encode(alone, {});
+  EXPECT_LT(along.layers[0].size(), octree.layers[0].size() * 3 / 5);
+}
 
 }  // namespace
 }  // namespace bspc::geometry

@@ -278,6 +278,24 @@ Mesh terrain(std::uint64_t seed, std::uint32_t side) {
   return mesh;
 }
 
+Mesh smoothNet(std::uint32_t side) {
+  Mesh mesh = named("smooth net");
+  for (std::uint32_t j = 0; j <= side; ++j) {
+    for (std::uint32_t i = 0; i <= side; ++i) {
+      mesh.points.push_back({300 * i + 113 * j + i * i / 3 + j * j / 5,
+                             270 * j + 51 * (side - i) + i * j / 5,
+                             211 * i + 170 * (side - j) + i * i + i * i * j / 40 + j * j * j / 60});
+    }
+  }
+  for (std::uint32_t j = 0; j < side; ++j) {
+    for (std::uint32_t i = 0; i < side; ++i) {
+      const std::uint32_t a = j * (side + 1) + i;
+      addQuad(mesh, {a, a + 1, a + side + 2, a + side + 1}, true, false);
+    }
+  }
+  return mesh;
+}
+
 Mesh remeshedSphere(std::uint64_t seed, unsigned levels) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> uniform(-1, 1);

@@ -21,6 +21,9 @@ Mesh torus(std::uint32_t rings, std::uint32_t sides, bool triangles);
 /// An open, bumpy patch of 2 · side² triangles with uneven vertices and diagonals either way.
 Mesh terrain(std::uint64_t seed, std::uint32_t side);
 
+/// A smooth patch of 2 · side² triangles that lies askew to all axes: regular along its faces only.
+Mesh smoothNet(std::uint32_t side);
+
 /// A closed bumpy surface of 20 · 4^levels triangles whose vertices have been moved about and whose
 /// edges flipped to be Delaunay again: like a scan that was meshed.
 Mesh remeshedSphere(std::uint64_t seed, unsigned levels);

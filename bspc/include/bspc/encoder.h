@@ -29,8 +29,9 @@ struct EncodeOptions {
   GridRequest grid;
   std::optional<Method> method;  ///< empty: the encoder's choice
   /// How much time smallness is worth, 1 (quickest) to 9 (smallest): 1 to 4 are method fast, 5 to
-  /// 9 method predictive. Empty: 9 up to 20,000 points, 2 above. With another method it is an
-  /// error.
+  /// 9 method predictive or, for meshes of one tile and one layer whose order need not be kept,
+  /// method surface if that is smaller. Empty: 9 up to 20,000 points, 2 above. With another method
+  /// it is an error.
   std::optional<unsigned> effort;
   /// If above 0, the effort is the greatest that should take no more than so many seconds on one
   /// core of 2020; an effort beside it is an error. An estimate by the number of points: the file

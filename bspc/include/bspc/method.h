@@ -15,6 +15,7 @@ enum class Method : std::uint8_t {
   Octree = 4,      ///< octree occupancy (Botsch et al. 2002)
   GenCode = 5,     ///< kd-tree with the symbols 0, 1, + (Lewiner et al. 2006)
   Predictive = 6,  ///< octree with every decision predicted from what is around, the smallest files
+  Surface = 7,     ///< vertex after vertex along the faces of a mesh
 };
 
 /// Name as spelt on the command line ("kd", "fast"), and back; empty if there is no such method.

@@ -1,37 +1,6 @@
 #include "connectivity/advancing_front.h"
 
-#include <algorithm>
-
 namespace bspc::connectivity {
-
-AdvancingFront::AdvancingFront(Span<const Position> positions, VertexIndex& index, bool triangles)
-    : positions_(positions),
-      index_(index),
-      triangles_(triangles),
-      gates_(positions.size()),
-      valence_(positions.size(), 0),
-      border_(positions.size(), 0) {}
-
-std::uint32_t AdvancingFront::faceAt(std::uint32_t from, std::uint32_t to) const {
-  const std::uint32_t corner = cornerAt(from, to);
-  return corner == kNoVertex ? kNoVertex : faceOf(corner);
-}
-
-std::uint32_t AdvancingFront::cornerAfter(std::uint32_t corner) const {
-  const std::uint32_t face = faceOf(corner);
-  return corner + 1 < faceStart(face + 1) ? corner + 1 : faceStart(face);
-}
-
-std::uint32_t AdvancingFront::corners(std::uint32_t face) const {
-  return faceStart(face + 1) - faceStart(face);
-}
-
-std::uint32_t AdvancingFront::apexOf(std::uint32_t from, std::uint32_t to) const {
-  const std::uint32_t corner = cornerAt(from, to);
-  if (corner == kNoVertex) return kNoVertex;
-  const std::uint32_t face = faceOf(corner);
-  return corners_[(corner > faceStart(face) ? corner : faceStart(face + 1)) - 1];
-}
 
 Gate AdvancingFront::gateAt(Edge edge) const {
   Gate gate;
@@ -43,58 +12,23 @@ Gate AdvancingFront::gateAt(Edge edge) const {
   return gate;
 }
 
-bool AdvancingFront::fits(Span<const std::uint32_t> face) const {
-  for (std::size_t i = 0; i < face.size(); ++i) {
-    if (!free(face[i], face[i + 1 < face.size() ? i + 1 : 0])) return false;
-  }
-  if (face.size() == 3) return face[0] != face[1] && face[1] != face[2] && face[2] != face[0];
-  std::vector<std::uint32_t> sorted(face.begin(), face.end());
-  std::sort(sorted.begin(), sorted.end());
-  return std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
-}
-
 void AdvancingFront::add(Span<const std::uint32_t> face, std::vector<Edge>& opened) {
-  opened.clear();
-  const auto start = static_cast<std::uint32_t>(corners_.size());
-  for (std::size_t i = 0; i < face.size(); ++i) {
-    const Edge edge{face[i], face[i + 1 < face.size() ? i + 1 : 0]};
-    ++valence_[edge.from];
-    const bool wasOpen = isOpen(edge);
-    halfEdges_.put(edge.from, edge.to, start + static_cast<std::uint32_t>(i));
-    if (wasOpen) {
-      gates_.close(edge.from, edge.to);
-    } else if (free(edge.to, edge.from)) {
-      gates_.open(edge.to, edge.from);
-      opened.push_back({edge.to, edge.from});
-    }
-  }
-  corners_.insert(corners_.end(), face.begin(), face.end());
-  if (!triangles_) {
-    faceOf_.insert(faceOf_.end(), face.size(), static_cast<std::uint32_t>(faceEnds_.size()));
-    faceEnds_.push_back(static_cast<std::uint32_t>(corners_.size()));
-  }
+  place(face, opened);
   for (const std::uint32_t vertex : face) settle(vertex);
 }
 
 void AdvancingFront::markBorder(Edge edge) {
-  halfEdges_.put(edge.from, edge.to, kBorder);
-  gates_.close(edge.from, edge.to);
-  border_[edge.from] |= kBegins;
-  border_[edge.to] |= kEnds;
+  close(edge);
   settle(edge.from);
   settle(edge.to);
 }
 
 void AdvancingFront::settle(std::uint32_t vertex) {
-  if (gates_.count(vertex) > 0) {
+  if (gates().count(vertex) > 0) {
     index_.wake(vertex);
-  } else if (valence_[vertex] > 0) {
+  } else if (valence(vertex) > 0) {
     index_.putToSleep(vertex);
   }
-}
-
-std::size_t AdvancingFront::bytes() const {
-  return halfEdges_.bytes() + (corners_.capacity() + faceOf_.capacity() + faceEnds_.capacity()) * 4;
 }
 
 }  // namespace bspc::connectivity

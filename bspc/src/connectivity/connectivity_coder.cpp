@@ -20,8 +20,9 @@ namespace {
 using entropy::SymbolReader;
 using entropy::SymbolWriter;
 
-constexpr unsigned kVersion = 0;
 constexpr unsigned kVersionBits = 4;
+constexpr unsigned kFromPlaces = 0;   ///< all faces are coded over known vertices
+constexpr unsigned kWithSurface = 1;  ///< regular faces are known from the points on
 constexpr std::uint64_t kMostNumbers = std::numeric_limits<std::uint32_t>::max() - 16;
 /// Steps that differ by more than this along two axes count as differing by this.
 constexpr double kMostAnisotropy = 1048576;
@@ -54,6 +55,7 @@ std::vector<Position> placesOf(const std::vector<Position>& points, const Weldin
 
 /// What stands in front of everything.
 struct MeshHead {
+  unsigned version = kFromPlaces;
   std::uint64_t vertices = 0;
   std::uint64_t lines = 0;
   bool faces = false;
@@ -61,8 +63,8 @@ struct MeshHead {
 
   template <class Coder>
   void code(Coder& coder) {
-    const std::uint32_t version = coder.raw(kVersion, kVersionBits);
-    if (version != kVersion) {
+    version = coder.raw(version, kVersionBits);
+    if (version > kWithSurface) {
       throw Error(ErrorCode::Unsupported, "the cells are coded by version " +
                                               std::to_string(version) +
                                               " of their method, which this one does not know");
@@ -72,6 +74,32 @@ struct MeshHead {
     faces = coder.raw(faces ? 1 : 0, 1) != 0;
     keepOrder = coder.raw(keepOrder ? 1 : 0, 1) != 0;
   }
+};
+
+/// What stands before the faces if regular ones are known.
+struct SurfaceHead {
+  std::uint64_t irregular = 0;
+  bool flips = false;
+
+  template <class Coder>
+  void code(Coder& coder) {
+    irregular = codeNumber(coder, irregular);
+    flips = coder.raw(flips ? 1 : 0, 1) != 0;
+  }
+};
+
+/// Codes which faces of a known surface were turned around, in their order.
+template <class Coder>
+class FlipBits {
+ public:
+  explicit FlipBits(Coder& coder) : coder_(coder) {}
+
+  bool code(bool flipped) { return last_ = coder_.bit(model_[last_ ? 1 : 0], flipped); }
+
+ private:
+  Coder& coder_;
+  std::array<entropy::AdaptiveBit, 2> model_;
+  bool last_ = false;
 };
 
 void checkCells(const Cells& cells, std::uint64_t points, const char* sort) {
@@ -89,14 +117,23 @@ void checkCells(const Cells& cells, std::uint64_t points, const char* sort) {
 
 class MeshEncoder {
  public:
-  MeshEncoder(const MeshPoints& points, const MeshCells& cells, const CodingWishes& wishes)
-      : points_(points), cells_(cells), wishes_(wishes), places_(placesOf(points)) {}
+  MeshEncoder(const MeshPoints& points, const MeshCells& cells, const CodingWishes& wishes,
+              const Cells* surface)
+      : points_(points),
+        cells_(cells),
+        wishes_(wishes),
+        surface_(surface),
+        places_(placesOf(points)) {}
 
   EncodedMesh encode() {
-    MeshHead head{cells_.vertices.size(), cells_.lines.size(), !cells_.faces.empty(),
-                  wishes_.keepOrder};
+    MeshHead head{surface_ != nullptr ? kWithSurface : kFromPlaces, cells_.vertices.size(),
+                  cells_.lines.size(), !cells_.faces.empty(), wishes_.keepOrder};
     head.code(coder_);
-    if (head.faces) encodeFaces();
+    if (head.faces && surface_ != nullptr) {
+      encodeAroundSurface();
+    } else if (head.faces) {
+      encodeFaces();
+    }
     if (head.lines > 0) encodeLines();
     if (head.vertices > 0) encodeVertices();
     result_.payload = coder_.finish();
@@ -148,6 +185,32 @@ class MeshEncoder {
     FacesSection<SymbolWriter, FaceTruth> section(coder_, head, positions);
     section.codeVertices(truth, irregular, [](std::size_t) {});
     if (welding_) encodeCorners(section.front(), prepared, truth);
+    finishFaces(prepared, truth);
+  }
+
+  /// What a decoder does not know of the faces from its points on.
+  void encodeAroundSurface() {
+    PreparedFaces prepared = prepareFaces(cells_.faces);
+    sortIrregular(prepared);
+    FaceTruth truth(prepared.faces, prepared.flipped, prepared.regular, points_.points.size());
+    SurfaceHead head{prepared.irregular.size(), prepared.anyFlipped};
+    head.code(coder_);
+    FlipBits<SymbolWriter> flips(coder_);
+    for (std::size_t i = 0; i < surface_->size(); ++i) {
+      truth.take({(*surface_)[i][0], (*surface_)[i][1]});
+      if (head.flips) flips.code(truth.flipped());
+    }
+    if (head.irregular > 0) {
+      Cells irregular;
+      for (const std::uint32_t i : prepared.irregular) irregular.add(prepared.faces[i]);
+      const VertexIndex index(places_);
+      PlainCells<SymbolWriter>(coder_, places_, index, PlainCells<SymbolWriter>::Shape::Face)
+          .code(head.irregular, irregular, noCheck);
+    }
+    finishFaces(prepared, truth);
+  }
+
+  void finishFaces(const PreparedFaces& prepared, const FaceTruth& truth) {
     std::vector<std::uint32_t> order = truth.order();
     order.insert(order.end(), prepared.irregular.begin(), prepared.irregular.end());
     if (wishes_.keepOrder) {
@@ -279,6 +342,7 @@ class MeshEncoder {
   const MeshPoints& points_;
   const MeshCells& cells_;
   CodingWishes wishes_;
+  const Cells* surface_;
   std::vector<Position> places_;
   std::optional<Welding> welding_;
   std::vector<std::uint32_t> numberOf_;  ///< of each point, if they were renumbered
@@ -288,8 +352,9 @@ class MeshEncoder {
 
 class MeshDecoder {
  public:
-  MeshDecoder(const MeshPoints& points, ByteView payload, std::uint64_t maxBytes)
-      : points_(points), maxBytes_(maxBytes), coder_(payload) {
+  MeshDecoder(const MeshPoints& points, ByteView payload, std::uint64_t maxBytes,
+              const std::function<Cells(std::uint64_t)>& surface)
+      : points_(points), maxBytes_(maxBytes), surface_(surface), coder_(payload) {
     check(points.points.size() * kBytesPerPoint);
     places_ = placesOf(points);
   }
@@ -297,7 +362,14 @@ class MeshDecoder {
   MeshCells decode() {
     MeshHead head;
     head.code(coder_);
-    if (head.faces) decodeFaces(head.keepOrder);
+    if (head.faces) {
+      if (head.version == kWithSurface) {
+        decodeAroundSurface();
+      } else {
+        decodeFaces();
+      }
+      if (head.keepOrder) decodeOrder();
+    }
     if (head.lines > 0) {
       const VertexIndex index(places_);
       PlainCells<SymbolReader>(coder_, places_, index, PlainCells<SymbolReader>::Shape::Line)
@@ -333,7 +405,7 @@ class MeshDecoder {
                     " bytes; raise the limit if the file is to be trusted");
   }
 
-  void decodeFaces(bool keepOrder) {
+  void decodeFaces() {
     FacesHead head;
     head.code(coder_);
     std::optional<Welding> welding;
@@ -355,7 +427,25 @@ class MeshDecoder {
     }
     section.appendRegular(points, cells_.faces);
     for (std::size_t i = 0; i < irregular.size(); ++i) cells_.faces.add(irregular[i]);
-    if (keepOrder) decodeOrder();
+  }
+
+  void decodeAroundSurface() {
+    if (!surface_) throw Error(ErrorCode::Corrupt, "the faces are those of no surface");
+    const std::uint64_t used = points_.points.size() * kBytesPerPoint;
+    cells_.faces = surface_(maxBytes_ - used);
+    check(used);
+    SurfaceHead head;
+    head.code(coder_);
+    FlipBits<SymbolReader> flips(coder_);
+    for (std::size_t i = 0; head.flips && i < cells_.faces.size(); ++i) {
+      if (!flips.code(false)) continue;
+      std::reverse(cells_.faces.indices.begin() + cells_.faces.first(i),
+                   cells_.faces.indices.begin() + cells_.faces.ends[i]);
+    }
+    if (head.irregular == 0) return;
+    const VertexIndex index(places_);
+    PlainCells<SymbolReader>(coder_, places_, index, PlainCells<SymbolReader>::Shape::Face)
+        .code(head.irregular, cells_.faces, [&] { check(used); });
   }
 
   void decodeOrder() {
@@ -377,6 +467,7 @@ class MeshDecoder {
 
   const MeshPoints& points_;
   std::uint64_t maxBytes_;
+  const std::function<Cells(std::uint64_t)>& surface_;
   SymbolReader coder_;
   std::vector<Position> places_;
   MeshCells cells_;
@@ -384,8 +475,8 @@ class MeshDecoder {
 
 }  // namespace
 
-EncodedMesh encodeMesh(const MeshPoints& points, const MeshCells& cells,
-                       const CodingWishes& wishes) {
+EncodedMesh encodeMesh(const MeshPoints& points, const MeshCells& cells, const CodingWishes& wishes,
+                       const Cells* surface) {
   if (points.points.size() > kMostNumbers) {
     throw Error(ErrorCode::Unsupported,
                 "the mesh has more than 2^32 points; store it in parts, or without cells");
@@ -393,14 +484,15 @@ EncodedMesh encodeMesh(const MeshPoints& points, const MeshCells& cells,
   checkCells(cells.vertices, points.points.size(), "vertex cells");
   checkCells(cells.lines, points.points.size(), "lines");
   checkCells(cells.faces, points.points.size(), "faces");
-  return MeshEncoder(points, cells, wishes).encode();
+  return MeshEncoder(points, cells, wishes, surface).encode();
 }
 
-MeshCells decodeMesh(const MeshPoints& points, ByteView payload, std::uint64_t maxBytes) {
+MeshCells decodeMesh(const MeshPoints& points, ByteView payload, std::uint64_t maxBytes,
+                     const std::function<Cells(std::uint64_t)>& surface) {
   if (points.points.size() > kMostNumbers) {
     throw Error(ErrorCode::Corrupt, "a mesh of more than 2^32 points cannot have cells");
   }
-  return MeshDecoder(points, payload, maxBytes).decode();
+  return MeshDecoder(points, payload, maxBytes, surface).decode();
 }
 
 }  // namespace bspc::connectivity

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "bspc/grid.h"
@@ -41,11 +42,18 @@ struct EncodedMesh {
 ///
 /// Throws Error(InvalidArgument) if a cell has a point that there is not, Error(Unsupported) for
 /// more than 2^32 − 16 points or corners.
-EncodedMesh encodeMesh(const MeshPoints& points, const MeshCells& cells,
-                       const CodingWishes& wishes);
+///
+/// `surface`: the regular faces of prepareFaces() as a decoder knows them already, from the points
+/// on; null if it does not.
+EncodedMesh encodeMesh(const MeshPoints& points, const MeshCells& cells, const CodingWishes& wishes,
+                       const Cells* surface = nullptr);
 
 /// The cells. Any bytes are safe; `maxBytes` bounds the memory of the output and of all that is
 /// allocated on the way. Throws Error(Corrupt, Unsupported, LimitExceeded).
-MeshCells decodeMesh(const MeshPoints& points, ByteView payload, std::uint64_t maxBytes);
+///
+/// `surface` is called with bytes of memory, for the faces that are known from the points on; null
+/// if there can be none.
+MeshCells decodeMesh(const MeshPoints& points, ByteView payload, std::uint64_t maxBytes,
+                     const std::function<Cells(std::uint64_t)>& surface = nullptr);
 
 }  // namespace bspc::connectivity

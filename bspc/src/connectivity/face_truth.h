@@ -18,6 +18,8 @@ class FaceTruth {
             const std::vector<std::uint32_t>& chosen, std::size_t vertices);
 
   bool hasFaceAt(Edge edge) const { return corners_.contains(edge.from, edge.to); }
+  /// The first edge of face i of those that were given.
+  Edge edgeOf(std::size_t i) const { return {faces_[i][0], faces_[i][1]}; }
   bool usesVertex(std::uint32_t vertex) const {
     return firstEdge_[vertex] != firstEdge_[vertex + 1];
   }
@@ -49,6 +51,7 @@ class FaceTruth {
 class UnknownFaces {
  public:
   bool hasFaceAt(Edge /*edge*/) const { return false; }
+  Edge edgeOf(std::size_t /*i*/) const { return {}; }
   bool usesVertex(std::uint32_t /*vertex*/) const { return false; }
   std::uint32_t neighbour(std::uint32_t /*vertex*/, const std::vector<Neighbour>& /*n*/) const {
     return 0;

@@ -12,6 +12,12 @@ class OpenGates {
   explicit OpenGates(std::size_t vertices)
       : leaving_(vertices, kNone), entering_(vertices, kNone), count_(vertices, 0) {}
 
+  void addVertex() {
+    leaving_.push_back(kNone);
+    entering_.push_back(kNone);
+    count_.push_back(0);
+  }
+
   void open(std::uint32_t from, std::uint32_t to) {
     push(leaving_[from], to);
     push(entering_[to], from);

@@ -7,6 +7,7 @@
 #include "geometry/kd/kd_method.h"
 #include "geometry/partition/partition_method.h"
 #include "geometry/predictive/predictive_method.h"
+#include "geometry/surface/surface_method.h"
 
 namespace bspc {
 
@@ -17,13 +18,14 @@ struct NamedMethod {
   const char* name;
 };
 
-constexpr std::array<NamedMethod, 6> kMethods{{
+constexpr std::array<NamedMethod, 7> kMethods{{
     {Method::Kd, "kd"},
     {Method::Fast, "fast"},
     {Method::Bsp, "bsp"},
     {Method::Octree, "octree"},
     {Method::GenCode, "gencode"},
     {Method::Predictive, "predictive"},
+    {Method::Surface, "surface"},
 }};
 
 }  // namespace
@@ -56,6 +58,7 @@ const GeometryMethod* findGeometryMethod(Method id) {
   static const FastMethod fast;
   static const BspMethod bsp;
   static const PredictiveMethod predictive;
+  static const SurfaceMethod surface;
   switch (id) {
     case Method::Kd:
       return &kd;
@@ -69,6 +72,8 @@ const GeometryMethod* findGeometryMethod(Method id) {
       return &genCodeMethod();
     case Method::Predictive:
       return &predictive;
+    case Method::Surface:
+      return &surface;
   }
   return nullptr;
 }

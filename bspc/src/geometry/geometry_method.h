@@ -7,6 +7,7 @@
 
 #include "bspc/grid.h"
 #include "bspc/limits.h"
+#include "bspc/mesh.h"
 #include "bspc/method.h"
 #include "bspc/span.h"
 
@@ -26,6 +27,8 @@ struct CodingWishes {
   unsigned effort = 2;                ///< 1 (quickest) … 9 (smallest)
   std::uint64_t stopPoints = 0;       ///< lossy: cells of so many points or fewer stay undivided
   std::optional<unsigned> stopLevel;  ///< lossy: cells of this level stay undivided
+  /// Faces over the points of the tile, an oriented surface: what method surface goes along.
+  const Cells* faces = nullptr;
 };
 
 /// A tile to be coded: its points, in grid steps from the lower corner of its tight box.
@@ -49,6 +52,8 @@ struct EncodedTile {
   bool nestsPoints = false;
   /// If so: indices of decoded points layer after layer; empty if that is how they are decoded.
   std::vector<std::uint32_t> layerOrder;
+  /// The faces that the payload holds, over decoded points.
+  Cells faces;
 };
 
 /// A tile to be decoded. Nothing in it can be trusted but that the payloads are the bytes that

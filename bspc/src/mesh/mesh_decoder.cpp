@@ -7,6 +7,7 @@
 #include "attributes/array_coder.h"
 #include "bspc/error.h"
 #include "connectivity/connectivity_coder.h"
+#include "geometry/surface/surface_method.h"
 #include "mesh/mesh_encoder.h"
 
 namespace bspc {
@@ -78,7 +79,8 @@ class Reader {
         Span<const GridPoint>(points_.points)
             .subspan(static_cast<std::size_t>(firstPoint_), static_cast<std::size_t>(count));
     const MeshCells cells =
-        connectivity::decodeMesh({own, stepsOf(file_.head().grid)}, block.cells, memoryLeft());
+        connectivity::decodeMesh({own, stepsOf(file_.head().grid)}, block.cells, memoryLeft(),
+                                 [&](std::uint64_t memory) { return facesOfTile(block, memory); });
     if (cells.vertices.size() != block.counts.vertices ||
         cells.lines.size() != block.counts.lines || cells.faces.size() != block.counts.faces) {
       throw Error(ErrorCode::Corrupt, "a block of cells has others than it says");
@@ -89,6 +91,17 @@ class Reader {
     append(cells.lines, firstPoint_, points_.mesh.lines);
     append(cells.faces, firstPoint_, points_.mesh.faces);
     firstPoint_ += count;
+  }
+
+  /// The faces that the points of the block's only tile were coded along.
+  Cells facesOfTile(const container::MeshBlock& block, std::uint64_t memory) const {
+    const auto tile = static_cast<std::size_t>(block.firstTile);
+    if (block.tiles != 1 || file_.tiles()[tile].method != static_cast<unsigned>(Method::Surface)) {
+      throw Error(ErrorCode::Corrupt, "the faces are those of a tile that has none");
+    }
+    const std::size_t column =
+        file_.layout().column(file_.head().layers - 1, container::kGeometryPart);
+    return geometry::facesOfSurface(file_.chunk(tile, column), file_.tiles()[tile].points, memory);
   }
 
   std::uint64_t memoryLeft() const {

@@ -10,6 +10,7 @@
 #include "attributes/array_coder.h"
 #include "bspc/error.h"
 #include "connectivity/connectivity_coder.h"
+#include "connectivity/mesh_preparation.h"
 #include "grid/float_grid.h"
 
 namespace bspc {
@@ -121,8 +122,16 @@ MeshCells MeshEncoder::renumbered(const std::vector<std::uint64_t>& order) const
   return cells;
 }
 
+Cells MeshEncoder::surface(const std::vector<std::uint64_t>& order) const {
+  const connectivity::PreparedFaces prepared = connectivity::prepareFaces(renumbered(order).faces);
+  Cells regular;
+  for (const std::uint32_t i : prepared.regular) regular.add(prepared.faces[i]);
+  return regular;
+}
+
 Bytes MeshEncoder::encode(const GridFit& fit, unsigned effort, std::uint64_t tiles,
-                          std::vector<std::uint64_t>& order, EncodeReport& report) const {
+                          const Cells* surface, std::vector<std::uint64_t>& order,
+                          EncodeReport& report) const {
   const std::vector<GridPoint> points = orderedPoints(fit, order);
   MeshCells cells = renumbered(order);
   connectivity::CodingWishes wishes;
@@ -132,7 +141,7 @@ Bytes MeshEncoder::encode(const GridFit& fit, unsigned effort, std::uint64_t til
   wishes.mayRenumber = !options_.keepOrder && !options_.originalIds && points_.arrays().empty() &&
                        !lattice::hasLowHalves(fit.grid);
   connectivity::EncodedMesh coded =
-      connectivity::encodeMesh({points, stepsOf(fit.grid)}, cells, wishes);
+      connectivity::encodeMesh({points, stepsOf(fit.grid)}, cells, wishes, surface);
   if (!coded.pointOrder.empty()) {
     std::vector<std::uint64_t> exchanged;
     exchanged.reserve(order.size());

@@ -25,8 +25,13 @@ class MeshEncoder {
   /// The content of the Mesh block. `order`: input index of each point that a decoder returns;
   /// entries of points at the same place may be exchanged. `fit`: their grid points. `report` gets
   /// what the mesh takes. Throws Error(InvalidArgument) if cells use points that were dropped.
-  Bytes encode(const GridFit& fit, unsigned effort, std::uint64_t tiles,
+  /// `surface`: faces that a decoder knows from its points on, over those; null if it does not.
+  Bytes encode(const GridFit& fit, unsigned effort, std::uint64_t tiles, const Cells* surface,
                std::vector<std::uint64_t>& order, EncodeReport& report) const;
+
+  /// The faces that are an oriented surface, which method surface goes along. `order`: input index
+  /// of each point that they are to be over.
+  Cells surface(const std::vector<std::uint64_t>& order) const;
 
  private:
   std::vector<GridPoint> orderedPoints(const GridFit& fit,
