@@ -7,7 +7,7 @@ import math
 from elementary import Reader, require
 from neighbours import Predictor, Ranks, size_class
 from range_coder import AdaptiveBits, RangeDecoder
-from sphere import Sphere
+from sphere import Chart, Sphere
 from words import UnitPrediction, WordType
 
 WORDS, NUMBERS, UNIT, SPHERE = range(4)
@@ -48,16 +48,16 @@ class Residual:
         if domain == UNIT and near:
             unit = UnitPrediction([self._mean(k, near, weights) for k in range(3)])
             order = unit.order
-        spheric = self._spheric(near, weights) if domain == SPHERE and near else None
+        chart = self._chart(near, weights) if domain == SPHERE else None
         residuals: list[int] = []
         before = (0, 0)
         for i, k in enumerate(order):
-            if not near:
+            if chart:
+                guess = chart.expected[k]
+            elif not near:
                 guess = self.kind.zero
             elif domain == WORDS:
                 guess = self._words(k, near, weights)
-            elif domain == SPHERE:
-                guess = spheric[k]
             elif unit and i == 2:
                 numbers = [self.kind.number(words[order[j]]) for j in range(2)]
                 guess = unit.last_word(self.kind, *numbers)
@@ -67,7 +67,7 @@ class Residual:
             before = (abs(residual), expected)
             residuals.append(residual)
             words[k] = (guess + residual) & self.kind.mask
-        self.tuples.append(words)
+        self.tuples.append(list(chart.turned_back(words)) if chart else words)
         self.residuals[rank] = residuals
 
     def _mean(self, k: int, near: list[int], weights: list[float]) -> float:
@@ -82,13 +82,13 @@ class Residual:
             s += w * float(self.kind.signed(self.tuples[r][k] - nearest))
         return nearest + math.floor(s + 0.5) if abs(s) < 2.0**62 else nearest
 
-    def _spheric(self, near: list[int], weights: list[float]) -> list[int]:
+    def _chart(self, near: list[int], weights: list[float]) -> Chart:
         sums = [0.0, 0.0, 0.0]
         for r, w in zip(near, weights):
             direction = self.sphere.float32_direction(self.tuples[r])
             for k in range(3):
                 sums[k] += w * direction[k]
-        return list(self.sphere.place(sums))
+        return Chart(self.sphere, sums)
 
     def _residual(
         self, coder: RangeDecoder, i: int, near: list[int], residuals: list[int], before: tuple[int, int]

@@ -156,12 +156,17 @@ class ArrayPayload:
     def _exceptions(self, reader: Reader, most: int, size: int) -> dict[int, bytes]:
         count = reader.varint()
         require(count <= most, "too many exceptions")
+        if count == 0:
+            return {}
+        gaps = Reader(row(reader, reader.varint()))
         places, start = [], 0
         for _ in range(count):
-            places.append(start + reader.varint())
+            places.append(start + gaps.varint())
             start = places[-1] + 1
-        require(not places or places[-1] < most, "an exception beyond the last number")
-        return {p: reader.bytes(size) for p in places}
+        gaps.finish()
+        require(places[-1] < most, "an exception beyond the last number")
+        contents = row(reader, count * size)
+        return {p: contents[i * size : i * size + size] for i, p in enumerate(places)}
 
     def _quantised(self, reader: Reader, known: list) -> list:
         require(self.kind.is_float, "quantised integers")
@@ -198,11 +203,11 @@ class ArrayPayload:
 
     def _sphere(self, reader: Reader, known: list) -> list:
         require(self.kind.is_float and self.components == 3, "a sphere of other than three floats")
-        bits = reader.u8()
-        require(2 <= bits <= 24, "a wrong number of bits")
+        size = reader.varint()
+        require(1 <= size <= 1 << 23, "a wrong size of an octahedron")
         exceptions = self._exceptions(reader, self.layer.new, 3 * self.kind.size)
-        sphere = Sphere(bits)
-        scalar_type = UINT8 if bits <= 8 else UINT16 if bits <= 16 else UINT32
+        sphere = Sphere(size)
+        scalar_type = UINT8 if 2 * size <= 255 else UINT16 if 2 * size <= 65535 else UINT32
         inner = ArrayPayload(self.layer, scalar_type, 2, sphere)
         told = [list(sphere.place([self.kind.number(w) for w in t])) for t in known]
         result = []

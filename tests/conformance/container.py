@@ -97,6 +97,12 @@ class MeshBlock:
         reader.finish()
 
 
+def _chunk_size(reader):
+    size = reader.varint()
+    require(size < (1 << 64) - 1, "a chunk of 2^64 - 1 bytes")
+    return size
+
+
 class Tile:
     """A tile record, and then the payloads of its chunks."""
 
@@ -118,7 +124,7 @@ class Tile:
         self.layers = head.layers - self.lacking
         self._read_layers(reader)
         self.content = reader.unsigned(checksum_width(12 * self.points))
-        self.geometry_sizes = [reader.varint() for _ in range(self.layers)]
+        self.geometry_sizes = [_chunk_size(reader) for _ in range(self.layers)]
         self.order_kind, self.order_size, self.values_in_all_layers = 0, 0, False
         self.array_contents, self.array_sizes, self.needs_order = [], [], []
         self.arrays = ([ArrayDescription()] if head.grid.has_low_halves() else []) + head.arrays
@@ -144,10 +150,10 @@ class Tile:
         require(self.order_kind or not head.keeps_order, "a kept order is not known")
         self.values_in_all_layers = bool(flags & 4)
         if self.order_kind == 1:
-            self.order_size = reader.varint()
+            self.order_size = _chunk_size(reader)
         for array in self.arrays:
             self.array_contents.append(reader.unsigned(array.content_width(self.points)))
-            sizes = [reader.varint() for _ in range(self.layers if self.values_in_all_layers else 1)]
+            sizes = [_chunk_size(reader) for _ in range(self.layers if self.values_in_all_layers else 1)]
             needs = False
             if self.order_kind == 1:
                 needs = bool(sizes[-1] & 1)
@@ -214,13 +220,18 @@ class Head:
                 require(tag >= 128, "unknown record", "unsupported")
 
 
+def _require_optional(kind):
+    require(not HEAD <= kind <= MESH, "a block out of place")
+    require(kind >= 128, "a block of unknown type", "unsupported")
+
+
 class File:
     """A whole file: its head, its tiles with the payloads of their chunks, its mesh blocks."""
 
     def __init__(self, data):
         self.reader = Reader(data, short="truncated")
-        require(self.reader.left() >= 8, "shorter than its signature", "not bspc")
-        require(self.reader.bytes(8) == SIGNATURE, "no signature", "not bspc")
+        require(data and SIGNATURE.startswith(bytes(data[:8])), "no signature", "not bspc")
+        self.reader.bytes(8)
         self.major, self.minor = self.reader.u8(), self.reader.u8()
         require(self.major == 0, "unknown major version", "unsupported")
         kind, content = self._block(covered_before=10)
@@ -276,9 +287,17 @@ class File:
                 return start, content
             if kind in last:
                 return start, content
-            require(kind >= 128, "a block of unknown type or out of place", "unsupported")
+            _require_optional(kind)
+
+    def _require_end_block(self):
+        """Without one, a streaming file counts as one that ends early."""
+        end = Reader(self.reader.data, max(len(self.reader.data) - 14, 0), short="truncated")
+        start = end.bytes(10)
+        require(start[:2] == bytes([END, 8]), "no end block", "truncated")
+        require(checksum(start) == end.unsigned(4), "no end block", "truncated")
 
     def _read_streaming(self):
+        self._require_end_block()
         self.tiles = []
         index = None
         while index is None:
@@ -300,7 +319,7 @@ class File:
                 table.finish()
                 require(records == [t.record for t in self.tiles], "index and tiles differ")
             else:
-                require(kind >= 128, "a block of unknown type or out of place", "unsupported")
+                _require_optional(kind)
         kind, content = self._block()
         require(kind == END and len(content) == 8, "no end block")
         require(int.from_bytes(content, "little") == index, "the end block names another index")

@@ -68,7 +68,7 @@ class Fast:
     def _set(self, body: bytes, n: int) -> list[Point]:
         require(body, "a set without its kind")
         kind, levels = body[0] & 15, body[0] >> 4
-        require(kind <= 2, "an unknown kind of set", "unsupported")
+        require(kind <= 2, "a reserved kind of set")
         require(levels <= (6 if kind == 1 else 0), "wrong extra levels")
         extent = self.header.extent
         if kind == 2:

@@ -79,7 +79,7 @@ def cells_around(cell: Point) -> Iterator[Point]:
 
 class Predictor:
     def __init__(self, number: int, stiffness: int = 0):
-        require(number <= QUADRIC, "an unknown predictor", "unsupported")
+        require(number <= QUADRIC, "an unknown predictor")
         self.number, self.stiffness = number, stiffness
         self.wanted, self.mean = (20, 6) if number == QUADRIC else (8, 3)
 

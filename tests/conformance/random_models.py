@@ -21,7 +21,7 @@ Point = tuple[float, float, float]
 
 
 def _shape(rng: random.Random, n: int) -> list[Point]:
-    kind = rng.randrange(7)
+    kind = rng.randrange(8)
     size = rng.choice((1, 3, 12, 100, 1000, 30000))
     if kind == 0:  # anywhere
         return [tuple(float(rng.randrange(size)) for _ in range(3)) for _ in range(n)]
@@ -45,6 +45,13 @@ def _shape(rng: random.Random, n: int) -> list[Point]:
     if kind == 4:  # clusters
         centres = [[rng.uniform(-size, size) for _ in range(3)] for _ in range(1 + n // 50)]
         return [tuple(float(round(rng.gauss(x, 2))) for x in rng.choice(centres)) for _ in range(n)]
+    if kind == 7:  # a smooth surface, in no order
+        curve, tilt = rng.uniform(0, 4e-3), rng.uniform(-1, 1)
+        places = [(rng.randrange(size), rng.randrange(size)) for _ in range(n)]
+        heights = [round(tilt * x + curve * y * y) for x, y in places]
+        turn = rng.randrange(3)
+        rows = [(float(x), float(y), float(z)) for (x, y), z in zip(places, heights)]
+        return [r[turn:] + r[:turn] for r in rows]
     if kind == 5:  # not on a lattice
         return [tuple(rng.uniform(-size, size) for _ in range(3)) for _ in range(n)]
     few = [tuple(rng.randrange(size) / 8 for _ in range(3)) for _ in range(max(1, n // 20))]
@@ -124,7 +131,8 @@ def model(seed: int) -> tuple[bytes, list[str]]:
     """The bytes of a PLY file and options of `bspc encode`."""
     rng = random.Random(seed)
     method = rng.choice(METHODS)
-    n = rng.choice((1, 2, 5, 40, 41, 150, 300 if method == "bsp" else rng.choice((600, 1500, 5000))))
+    many = {"bsp": (300,), "fast": (600, 3000, 4096, 9000)}.get(method, (600, 1500, 5000))
+    n = rng.choice((1, 2, 5, 40, 41, 150, rng.choice(many)))
     data, floats = ply(rng, _shape(rng, n))
     options = ["--method", method]
     if method == "fast":

@@ -234,7 +234,15 @@ void ContainerReader::readTrailingBlocks(std::uint64_t offset, std::uint64_t end
                   "the file goes on after its end at byte " + std::to_string(offset));
     }
     if (block.type == static_cast<unsigned>(BlockType::End) && !head_.streaming) {
+      if (block.content != Bytes(kEndContent)) {
+        throw Error(ErrorCode::Corrupt, "the end block leads to an index that there is not");
+      }
       ended = true;
+    } else if (block.type >= static_cast<unsigned>(BlockType::Head) &&
+               block.type <= static_cast<unsigned>(BlockType::Mesh)) {
+      throw Error(ErrorCode::Corrupt, "the block at byte " + std::to_string(offset) + " has type " +
+                                          std::to_string(block.type) +
+                                          ", which must not stand behind the points");
     } else if (block.type < kOptionalBlock) {
       throw Error(ErrorCode::Unsupported,
                   "the block at byte " + std::to_string(offset) + " has type " +

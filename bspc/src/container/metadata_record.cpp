@@ -80,9 +80,13 @@ Metadata readMetadata(ByteReader& in, const DecodeLimits& limits) {
                                               std::to_string(limits.arrays) +
                                               "; raise the limit if it is to be trusted");
   }
+  std::set<std::string> names;
   for (std::uint64_t i = 0; i < arrays; ++i) {
     ArrayValues array;
     static_cast<ArrayDescription&>(array) = readArrayDescription(plain);
+    if (!names.insert(array.name).second) {
+      plain.fail("two field arrays have the name \"" + array.name + "\"");
+    }
     readValues(plain, array);
     metadata.fieldData.push_back(std::move(array));
   }
