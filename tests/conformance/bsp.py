@@ -184,7 +184,7 @@ class Bsp:
             coder.finish()
             return points, [1] * len(points)
         while any(self._divisible(c) for c in self.cells) and coder.adaptive(self.deeper):
-            self.cells = [s for c in self.cells for s in (self._cut(coder, c) if self._divisible(c) else [c])]
+            self.cells = [s for c in self.cells for s in self._next(coder, c)]
         coder.finish()
         return [c.representative() for c in self.cells], [c.points for c in self.cells]
 
@@ -198,6 +198,13 @@ class Bsp:
             slack_class = coder.raw(3)
             self.stop = StopRule.read(coder)
         self.slack = 1 << 31 if slack_class == 7 else 6 * 8**slack_class
+
+    def _next(self, coder, cell):
+        """A cell of the list one level deeper."""
+        if self._divisible(cell):
+            return self._cut(coder, cell)
+        cell.level += 1
+        return [cell]
 
     def _divisible(self, cell):
         return not cell.small() and not self.stop.stops(cell.points, cell.level)

@@ -110,12 +110,17 @@ class Tile:
         start = reader.position
         flags = reader.u8()
         coder = reader.varint()
+        require(coder < 1 << 32, "a coder is above 32 bits")
         self.method, self.version = coder >> 4, coder & 15
         self.points = reader.varint()
         require(self.points >= 1, "a tile without points")
         self.lower = [reader.varint() for _ in range(3)] if flags & 64 else [0, 0, 0]
         require(not flags & 64 or any(self.lower), "a lower corner that need not be told")
-        self.extent = [reader.unsigned((flags >> 2 * k & 3) + 1) for k in range(3)]
+        self.extent = []
+        for k in range(3):
+            width = (flags >> 2 * k & 3) + 1
+            self.extent.append(reader.unsigned(width))
+            require(width == 1 or self.extent[k] >> 8 * (width - 1), "an extent is longer than it must be")
         self.upper = [self.lower[k] + self.extent[k] for k in range(3)]
         require(all(u < 1 << 32 for u in self.upper), "a box is beyond the grid")
         head.grid.check_box(self.lower, self.upper)

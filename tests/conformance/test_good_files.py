@@ -59,6 +59,14 @@ class GoodFiles(unittest.TestCase):
                     methods = {METHODS[t.method] for t in file.tiles}
                     self.assertTrue(methods & {"predictive", "surface"} or file.head.mesh)
 
+    def test_second_decoder_reads_the_example_of_the_specification(self):
+        with open(os.path.join(SET, "../../../docs/format.md"), encoding="utf-8") as lines:
+            example = lines.read().split("<!-- example: begin -->")[1].split("<!-- example: end -->")[0]
+        pairs = [line[6:].split("  ")[0] for line in example.splitlines() if line.startswith("00")]
+        content = Content(bytes.fromhex("".join(pairs)))
+        self.assertEqual(content.tiles[0].points[-1], [(0, 0, 0), (0, 3, 1), (3, 0, 0), (2, 2, 3)])
+        self.assertEqual([content.head.grid.coordinate(k, 3) for k in range(3)], [1.0, 2.25, -1.25])
+
 
 def write_list(program: str) -> None:
     paths = [os.path.relpath(f, SET) for f in glob.glob(os.path.join(SET, "../golden/*.bspc"))]

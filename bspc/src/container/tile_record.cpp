@@ -138,9 +138,12 @@ TileRecord readTileRecord(ByteReader& in, const TileLayout& layout) {
   if (tile.points == 0) in.fail("a tile without points");
   if ((flags & kHasLower) != 0) {
     for (std::uint32_t& v : tile.lower) v = in.varint32();
+    if (tile.lower == GridPoint{}) in.fail("a tile tells a lower corner of zeros");
   }
   for (unsigned k = 0; k < 3; ++k) {
-    tile.extent[k] = static_cast<std::uint32_t>(in.unsignedLittle(((flags >> (2 * k)) & 3) + 1));
+    const unsigned width = ((flags >> (2 * k)) & 3) + 1;
+    tile.extent[k] = static_cast<std::uint32_t>(in.unsignedLittle(width));
+    if (width != byteLength(tile.extent[k])) in.fail("an extent is longer than it must be");
     if (tile.extent[k] > std::numeric_limits<std::uint32_t>::max() - tile.lower[k]) {
       in.fail("the box of a tile leaves the grid");
     }
