@@ -16,7 +16,7 @@ inline namespace BSPC_LANE_SET {
 
 /// Predictor: points of meshes and scans continue the pattern of those around them. Pairs and
 /// triples of near points say where: 2a − b, and a + b − c. Those that would come closer than 0.3
-/// spacings to a known point are left out.
+/// spacings to a known point are left out. The longer the pairs, the less a candidate counts.
 class Candidates {
  public:
   enum Kind : unsigned { kExtrapolated, kParallelogram, kProjected, kKinds };
@@ -69,9 +69,11 @@ class Candidates {
   struct Group {
     unsigned count = 0;
     alignas(32) float place[3][kMostInBox];
+    alignas(32) float weight[kMostInBox];
     std::array<Kernel, kScales> kernel;
-    void add(float x, float y, float z) {
+    void add(float x, float y, float z, float w) {
       if (count >= kMostInBox) return;
+      weight[count] = w;
       place[0][count] = x;
       place[1][count] = y;
       place[2][count] = z;
@@ -79,7 +81,8 @@ class Candidates {
     }
   };
 
-  void propose(const NearPoints& near, Kind kind, float x, float y, float z);
+  /// `square`: of the pair's length, or of the parallelogram's sides together.
+  void propose(const NearPoints& near, Kind kind, float x, float y, float z, float square);
   void proposeAround(const NearPoints& near, unsigned t);
   BSPC_LANES_INLINE std::uint32_t inCell(const Lanes& x, const Lanes& y, const Lanes& z) const {
     return entropy::maskBits((entropy::magnitude(x - middle_) <= reach_) &
@@ -96,10 +99,12 @@ class Candidates {
   float reach_ = 0;          ///< candidates lie within so much of it
   float pairSquare_ = 0;     ///< pairs lie closer
   float minimumSquare_ = 0;  ///< candidates and known points do not
+  float inverseSquare_ = 1;  ///< of the spacing in the cell
   unsigned listed_ = 0;
   alignas(32) float x_[kMostInCell + entropy::kLanes];
   alignas(32) float y_[kMostInCell + entropy::kLanes];
   alignas(32) float z_[kMostInCell + entropy::kLanes];
+  std::array<float, kMostInCell> weight_{};
   std::array<std::uint8_t, kMostInCell> kind_{};
   std::array<std::uint32_t, NearPoints::kMost> pairs_{};  ///< bit j of i: i and j are a pair
   std::array<Group, kKinds> group_{};

@@ -13,11 +13,19 @@ inline void forEachBit(std::uint32_t bits, Visit visit) {
   for (; bits != 0; bits &= bits - 1) visit(static_cast<unsigned>(__builtin_ctz(bits)));
 }
 
+inline float squareBetween(const NearPoints& near, unsigned a, unsigned b) {
+  const float dx = near.x[a] - near.x[b];
+  const float dy = near.y[a] - near.y[b];
+  const float dz = near.z[a] - near.z[b];
+  return dx * dx + dy * dy + dz * dz;
+}
+
 inline void Candidates::startCell(NearPoints& near, float side, float spacing) {
   middle_ = 0.5F * side;
   reach_ = middle_ + 0.3F * spacing;
   pairSquare_ = static_cast<float>(features_.pairReach) * spacing * spacing;
   minimumSquare_ = 0.09F * spacing * spacing;
+  inverseSquare_ = 1 / (spacing * spacing);
   listed_ = 0;
   for (unsigned t = 0; t < near.count; ++t) proposeAround(near, t);
 }
@@ -45,6 +53,7 @@ inline void Candidates::dropNear(float px, float py, float pz) {
       x_[kept] = x_[j];
       y_[kept] = y_[j];
       z_[kept] = z_[j];
+      weight_[kept] = weight_[j];
       kind_[kept] = kind_[j];
       ++kept;
     });
@@ -52,7 +61,8 @@ inline void Candidates::dropNear(float px, float py, float pz) {
   listed_ = kept;
 }
 
-inline void Candidates::propose(const NearPoints& near, Kind kind, float x, float y, float z) {
+inline void Candidates::propose(const NearPoints& near, Kind kind, float x, float y, float z,
+                                float square) {
   if (listed_ >= kMostInCell) return;
   entropy::IntLanes close = {};
   for (unsigned i = 0; i < entropy::wholeLanes(near.count); i += entropy::kLanes) {
@@ -65,6 +75,8 @@ inline void Candidates::propose(const NearPoints& near, Kind kind, float x, floa
   x_[listed_] = x;
   y_[listed_] = y;
   z_[listed_] = z;
+  const float drop = kind == kExtrapolated ? 10.0F : 3.0F;  // per square spacing
+  weight_[listed_] = 1 / (1 + drop * (square * inverseSquare_));
   kind_[listed_] = static_cast<std::uint8_t>(kind);
   ++listed_;
 }
@@ -95,11 +107,13 @@ inline void Candidates::proposeAround(const NearPoints& near, unsigned t) {
     const Lanes pz = entropy::load(near.z + i);
     forEachBit(here & inCell(2 * x - px, 2 * y - py, 2 * z - pz), [&](unsigned lane) {
       const unsigned j = i + lane;
-      propose(near, kExtrapolated, 2 * x - near.x[j], 2 * y - near.y[j], 2 * z - near.z[j]);
+      propose(near, kExtrapolated, 2 * x - near.x[j], 2 * y - near.y[j], 2 * z - near.z[j],
+              squareBetween(near, t, j));
     });
     forEachBit(here & inCell(2 * px - x, 2 * py - y, 2 * pz - z), [&](unsigned lane) {
       const unsigned j = i + lane;
-      propose(near, kExtrapolated, 2 * near.x[j] - x, 2 * near.y[j] - y, 2 * near.z[j] - z);
+      propose(near, kExtrapolated, 2 * near.x[j] - x, 2 * near.y[j] - y, 2 * near.z[j] - z,
+              squareBetween(near, t, j));
     });
   }
   if (!features_.has(Features::kParallelograms)) return;
@@ -107,6 +121,7 @@ inline void Candidates::proposeAround(const NearPoints& near, unsigned t) {
     const float dx = x - near.x[k];
     const float dy = y - near.y[k];
     const float dz = z - near.z[k];
+    const float side = dx * dx + dy * dy + dz * dz;
     // t + j − k for pairs j, k; then j + k − t for pairs of t.
     const std::uint32_t toK = pairs_[k] & before;
     const std::uint32_t toT = pairs & ((1U << k) - 1);
@@ -120,13 +135,15 @@ inline void Candidates::proposeAround(const NearPoints& near, unsigned t) {
       if (moved != 0) {
         forEachBit(moved & inCell(px + dx, py + dy, pz + dz), [&](unsigned lane) {
           const unsigned j = i + lane;
-          propose(near, kParallelogram, near.x[j] + dx, near.y[j] + dy, near.z[j] + dz);
+          propose(near, kParallelogram, near.x[j] + dx, near.y[j] + dy, near.z[j] + dz,
+                  side + squareBetween(near, j, k));
         });
       }
       if (spanned != 0) {
         forEachBit(spanned & inCell(px - dx, py - dy, pz - dz), [&](unsigned lane) {
           const unsigned j = i + lane;
-          propose(near, kParallelogram, near.x[j] - dx, near.y[j] - dy, near.z[j] - dz);
+          propose(near, kParallelogram, near.x[j] - dx, near.y[j] - dy, near.z[j] - dz,
+                  side + squareBetween(near, j, t));
         });
       }
     }
@@ -139,13 +156,13 @@ inline void Candidates::startBox(const Question& q, float spacing, float error,
     group.count = 0;
     const float width = 0.6F * error * spacing;
     if (scales_ == 1) {
-      group.kernel[0].inverseWidth = 1 / (0.5F * width + 0.4F);
+      group.kernel[0].inverseWidth = 1 / (0.25F * width + 0.4F);
     } else {
-      group.kernel[0].inverseWidth = 1 / (0.25F * width + 0.38F);
+      group.kernel[0].inverseWidth = 1 / (0.12F * width + 0.38F);
       group.kernel[1].inverseWidth = 1 / (width + 0.5F);
     }
   }
-  const float margin = 0.15F * spacing;
+  const float margin = 0.3F * spacing;
   const float hx = 0.5F * q.size[0] + margin;
   const float hy = 0.5F * q.size[1] + margin;
   const float hz = 0.5F * q.size[2] + margin;
@@ -158,7 +175,7 @@ inline void Candidates::startBox(const Question& q, float spacing, float error,
     if (listed_ - i < entropy::kLanes) inBox &= (1U << (listed_ - i)) - 1;
     forEachBit(inBox, [&](unsigned lane) {
       const unsigned j = i + lane;
-      group_[separate ? kind_[j] : unsigned{kExtrapolated}].add(x_[j], y_[j], z_[j]);
+      group_[separate ? kind_[j] : unsigned{kExtrapolated}].add(x_[j], y_[j], z_[j], weight_[j]);
     });
   }
   if (features_.has(Features::kProjection) && surface.quadric.valid) {
@@ -192,7 +209,9 @@ inline void Candidates::project(const Surface& surface, float spacing, Group& fr
     const auto xs = entropy::valuesOf(x);
     const auto ys = entropy::valuesOf(y);
     const auto zs = entropy::valuesOf(z);
-    for (unsigned lane = 0; lane < lanes; ++lane) to.add(xs[lane], ys[lane], zs[lane]);
+    for (unsigned lane = 0; lane < lanes; ++lane) {
+      to.add(xs[lane], ys[lane], zs[lane], from.weight[i + lane]);
+    }
   }
 }
 
@@ -200,6 +219,7 @@ inline void Candidates::spread(const Question& q, Group& group) {
   const auto padded = entropy::wholeLanes(group.count);
   for (unsigned i = group.count; i < padded; ++i) {
     group.place[0][i] = group.place[1][i] = group.place[2][i] = Neighbourhood::kNowhere;
+    group.weight[i] = 0;
   }
   for (unsigned s = 0; s < scales_; ++s) {
     Kernel& kernel = group.kernel[s];
@@ -232,8 +252,8 @@ inline void Candidates::ask(const Question& q) {
         const Lanes at =
             entropy::bell((q.middle - entropy::load(group.place[k] + i)) * kernel.inverseWidth);
         entropy::store(kernel.at + i, at);
-        const Lanes across =
-            entropy::load(kernel.mass[k1] + i) * entropy::load(kernel.mass[k2] + i);
+        const Lanes across = entropy::load(kernel.mass[k1] + i) *
+                             entropy::load(kernel.mass[k2] + i) * entropy::load(group.weight + i);
         lower += across * (at - entropy::load(kernel.low[k] + i));
         upper += across * (entropy::load(kernel.high[k] + i) - at);
       }

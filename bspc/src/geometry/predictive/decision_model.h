@@ -44,7 +44,9 @@ class DecisionModel {
   static constexpr unsigned kOpens = 22;
   static constexpr unsigned kDistances = Coordinates::kDistanceClasses;
   static constexpr unsigned kValues = AxisValues::kClasses;
-  static constexpr unsigned kCounts = 50;  ///< classes of (points, unary place)
+  static constexpr unsigned kCounts = 50;   ///< classes of (points, unary place)
+  static constexpr unsigned kDoubts = 8;    ///< how undecided the surface is, or the density
+  static constexpr unsigned kBalances = 6;  ///< how evenly parallelograms are shared out
 
   /// What a side decision is about: the only point of a box, one of two points, one of more.
   enum SideKind : unsigned { kLonePoint, kOneOfTwo, kMajority, kSideKinds };
@@ -160,10 +162,12 @@ class DecisionModel {
       kSideKinds* kCoarse* kSizes,          kSideKinds* kLogits* kSurfaceErrors,
       kSideKinds* kCoarse* kCoarse * 3,     kSideKinds* kLogits* kPhaseOpens};
   static constexpr unsigned kCountContexts = 6;
-  static constexpr std::array<unsigned, kCountContexts> kCountSizes{
-      kCounts * kSizes,    kCounts * 8 * kSizes,
-      kCounts * 8 * 6 * 3, kCounts* kDistances* kDistances,
-      kCounts * 8 * 6,     kCounts* kLogits* kPhaseOpens};
+  static constexpr std::array<unsigned, kCountContexts> kCountSizes{kCounts * kSizes,
+                                                                    kCounts* kDoubts* kSizes,
+                                                                    kCounts* kDoubts* kBalances * 3,
+                                                                    kCounts* kDistances* kDistances,
+                                                                    kCounts* kDoubts*(kSizes / 3),
+                                                                    kCounts* kLogits* kPhaseOpens};
   static constexpr unsigned kBisections = 8;
   static constexpr unsigned kCountOctaves = 21;
   static constexpr std::array<unsigned, 2> kShareSizes{kBisections * kLogits * kCountOctaves,
@@ -171,7 +175,8 @@ class DecisionModel {
 
   static constexpr unsigned kInputs = 32;
   static constexpr float kWeight = 0.12F;
-  static constexpr float kLayeredWeight = 0.06F;
+  static constexpr float kLayeredWeight = 0.09F;
+  static constexpr float kLayeredCountWeight = 0.2F;
   static constexpr unsigned kCounterAge = 60;
   static constexpr unsigned kSideSets = 2 * kSideKinds * kSizes * 3;
   static constexpr unsigned kSidesPerPhase = kSideKinds * kMasses * kErrors;
@@ -192,9 +197,16 @@ class DecisionModel {
       2 * kSideKinds,
       kInputs,
       kLayeredWeight,
-      {0.03F, 200, 0.005F},
+      {0.04F, 200, 0.007F},
       kCounterAge};
   entropy::LogisticMixer<2> countMixer_{{2 * kCounts, kCounts}, kInputs, kWeight, {}, kCounterAge};
+  entropy::LayeredMixer<4> layeredCountMixer_{
+      {2 * kCounts, kCounts* kSizes, kCounts* kDoubts* kBalances, kCounts * 2 * 3},
+      kCounts,
+      kInputs,
+      kLayeredCountWeight,
+      {0.05F, 200, 0.005F},
+      kCounterAge};
   entropy::LogisticMixer<2> shareMixer_{
       {kBisections, kBisections}, kInputs, kWeight, {}, kCounterAge};
 };
@@ -207,6 +219,7 @@ bool DecisionModel::codeSide(Coder& coder, bool upper, SideKind kind, const Situ
   e.clear();
   e.add(1);
   e.add(p.surfaceEvidence());
+  if (f.has(Features::kNarrowQuadric)) e.add(p.narrowQuadricEvidence);
   if (f.has(Features::kPlane)) e.add(p.planeEvidence);
   if (f.has(Features::kAxisValues)) e.add(p.axisValues.evidence);
   if (!p.inCell || f.has(Features::kDensity)) e.add(p.density.evidence);
@@ -290,22 +303,29 @@ bool DecisionModel::codeMore(Coder& coder, bool more, std::uint32_t count, std::
       const Candidates::Answer& a = p.candidates.widest(kind);
       const float share = (std::min(a.lower, a.upper) + 0.01F) / (a.lower + a.upper + 0.02F);
       e.add(entropy::naturalLog(share) + 1);
-      if (kind == Candidates::kParallelogram) balance = 1 + entropy::classOf(share, 10, 0, 5);
+      if (kind == Candidates::kParallelogram)
+        balance = 1 + entropy::classOf(share, 10, 0, kBalances - 1);
     }
   }
   const unsigned t = std::min(count, 9U) * 5 + std::min(less, 4U);
-  const unsigned doubtClass = entropy::classOf(surface, 7.99F, 0, 8);
+  const unsigned doubtClass = entropy::classOf(surface, 7.99F, 0, kDoubts);
   const auto [low, high] = std::minmax(s.lowerDistance, s.upperDistance);
   const auto add = [this](unsigned context, unsigned index) {
     evidence_.add(count_[context][index]);
   };
   add(0, t * kSizes + s.size);
-  add(1, (t * 8 + doubtClass) * kSizes + s.size);
-  add(2, ((t * 8 + doubtClass) * 6 + balance) * 3 + q.axis);
+  const unsigned tDoubt = t * kDoubts + doubtClass;
+  add(1, tDoubt * kSizes + s.size);
+  add(2, (tDoubt * kBalances + balance) * 3 + q.axis);
   add(3, (t * kDistances + low) * kDistances + high);
-  add(4, (t * 8 + entropy::classOf(sparseness, 3, 0, 8)) * 6 + s.size / 3);
+  add(4, (t * kDoubts + entropy::classOf(sparseness, 3, 0, kDoubts)) * (kSizes / 3) + s.size / 3);
   if (p.phaseSpeaks) add(5, (t * kLogits + fine(p.phaseEvidence)) * kPhaseOpens + q.open);
-  return countMixer_.code(coder, more, e, {t + (p.phaseSpeaks ? kCounts : 0), t});
+  const unsigned first = t + (p.phaseSpeaks ? kCounts : 0);
+  if (!p.features.has(Features::kTwoLayers)) return countMixer_.code(coder, more, e, {first, t});
+  const unsigned about = 2 * t + (p.inCell ? 1 : 0);
+  return layeredCountMixer_.code(
+      coder, more, e,
+      {first, t * kSizes + s.size, tDoubt * kBalances + balance, about * 3 + q.axis}, t);
 }
 
 /// The number of points in the upper half is spread around its mean.

@@ -40,7 +40,7 @@ Features featuresOf(unsigned effort) {
       f.refit = Features::Refit::PerPoint;
       break;
     default:
-      f.nearPoints = 18;
+      f.nearPoints = 16;
       f.pairReach = 16;
       f.refit = Features::Refit::Always;
   }

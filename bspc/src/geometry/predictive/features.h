@@ -22,9 +22,10 @@ struct Features {
     kPhase = 1U << 11,           ///< a lattice finer than the grid or offset from it
     kMirror = 1U << 12,          ///< mirrored copies
     kRangeImage = 1U << 13,      ///< raster of a depth camera
-    kTwoLayers = 1U << 14,       ///< side decisions are mixed in two layers
+    kTwoLayers = 1U << 14,       ///< side and count decisions are mixed in two layers
+    kNarrowQuadric = 1U << 15,   ///< the quadric once more, as if it erred less
   };
-  static constexpr std::uint32_t kAllFlags = (1U << 15) - 1;
+  static constexpr std::uint32_t kAllFlags = (1U << 16) - 1;
 
   /// When the surface is fitted anew.
   enum class Refit : std::uint8_t { PerCell, PerPoint, Always };

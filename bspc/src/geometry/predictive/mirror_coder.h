@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <optional>
+#include <vector>
 
 #include "bspc/error.h"
 #include "entropy/adaptive_bit.h"
@@ -23,7 +24,9 @@ inline namespace BSPC_LANE_SET {
 template <class Coder>
 class MirrorCoder {
  public:
-  MirrorCoder(const MirrorPlane& plane, const GridPoint& extent) : plane_(plane), extent_(extent) {}
+  MirrorCoder(const MirrorPlane& plane, const GridPoint& extent) : plane_(plane), extent_(extent) {
+    for (auto& memory : lastSteps_) memory.assign(kRemembered, 0);
+  }
 
   /// Codes the copy of `original`, a point with plane.isOriginal(). A writer says in `offset`
   /// whether there is one and where. Throws Error(Corrupt) where that lies outside of the tile.
@@ -43,8 +46,11 @@ class MirrorCoder {
     for (unsigned k = 0; k < 3; ++k) {
       const unsigned axis = axes[k];
       const std::uint64_t image = k == 0 ? plane_.sum - original[axis] : original[axis];
-      const int step =
-          codeStep(coder, offset ? (*offset)[k] : 0, k, likelyStep(image, phases[axis]), moved);
+      std::uint8_t& before = lastSteps_[k][original[axis] % kRemembered];
+      Models& models = steps_[k][likelyStep(image, phases[axis])][before][std::min(moved, 2U)];
+      const int step = codeStep(coder, offset ? (*offset)[k] : 0, models);
+      before = static_cast<std::uint8_t>(2 + step);
+      if (step != 0) ++moved;
       const auto value = static_cast<std::int64_t>(image) + step;
       if (value < 0 || value > std::int64_t{extent_[axis]}) {
         throw Error(ErrorCode::Corrupt,
@@ -59,6 +65,10 @@ class MirrorCoder {
   using Bit = entropy::AdaptiveBit;
   static constexpr unsigned kApart = 4;
   static constexpr unsigned kLikely = 4;
+  /// Steps come from rounding, so equal coordinates mostly took the same one: 0 for "none yet",
+  /// then 2 plus the step. Coordinates that far apart share a place.
+  static constexpr std::uint32_t kRemembered = 1U << 16;
+  static constexpr unsigned kBefore = 4;
 
   /// 1, 2, 3 if the phase of the image, of the value below or of that above is the likeliest;
   /// 0 if nothing is known of phases.
@@ -72,17 +82,15 @@ class MirrorCoder {
     return below >= above ? 2 : 3;
   }
 
-  int codeStep(Coder& coder, int step, unsigned k, unsigned likely, unsigned& moved) {
-    Models& m = steps_[k][likely][std::min(moved, 2U)];
-    if (!coder.bit(m.moves, step != 0)) return 0;
-    ++moved;
-    return coder.bit(m.up, step > 0) ? 1 : -1;
-  }
-
   struct Models {
     Bit moves;
     Bit up;
   };
+
+  static int codeStep(Coder& coder, int step, Models& models) {
+    if (!coder.bit(models.moves, step != 0)) return 0;
+    return coder.bit(models.up, step > 0) ? 1 : -1;
+  }
 
   MirrorPlane plane_;
   GridPoint extent_;
@@ -90,7 +98,8 @@ class MirrorCoder {
   bool seen_ = false;
   bool lastExisted_ = true;
   std::array<std::array<std::array<Bit, 2>, 2>, kApart> exists_;
-  std::array<std::array<std::array<Models, 3>, kLikely>, 3> steps_;
+  std::array<std::vector<std::uint8_t>, 3> lastSteps_;  ///< by coordinate of the original
+  std::array<std::array<std::array<std::array<Models, 3>, kBefore>, kLikely>, 3> steps_;
 };
 
 }  // namespace BSPC_LANE_SET

@@ -39,6 +39,7 @@ struct Predictors {
   PhaseHistograms phases;
   float planeEvidence = 0;
   float quadricEvidence = 0;
+  float narrowQuadricEvidence = 0;
   float phaseEvidence = 0;
   bool phaseSpeaks = false;
 
@@ -101,6 +102,9 @@ struct Predictors {
 
   void ask(const Question& q) {
     quadricEvidence = surface.quadric.evidence(q, surfaceError);
+    if (features.has(Features::kNarrowQuadric)) {
+      narrowQuadricEvidence = surface.quadric.evidence(q, 0.4F * surfaceError);
+    }
     const bool wantPlane = !inCell || features.has(Features::kPlane) || !surface.quadric.valid;
     planeEvidence = wantPlane ? surface.plane.evidence(q) : 0;
     if (inCell) {

@@ -189,13 +189,9 @@ inline void checkDepth(unsigned bits, std::uint32_t maxDepth) {
                                             ", more than the limit of " + std::to_string(maxDepth));
 }
 
-inline EncodedTile encode(const TileInput& tile, const PointProgress& progress) {
-  if (tile.points.size() > std::numeric_limits<std::uint32_t>::max()) {
-    throw Error(ErrorCode::Unsupported,
-                "method predictive codes at most 4,294,967,295 points in one tile, and this set "
-                "has " +
-                    std::to_string(tile.points.size()));
-  }
+/// With the structure that was found, or part of it.
+inline EncodedTile encodeWith(const TileStructure& structure, const TileInput& tile,
+                              unsigned effort, const PointProgress& progress) {
   EncodedTile result;
   SortedPoints points(tile, progress);
   const auto count = static_cast<std::uint32_t>(tile.points.size());
@@ -204,9 +200,7 @@ inline EncodedTile encode(const TileInput& tile, const PointProgress& progress) 
     std::iota(indices.begin(), indices.end(), 0U);
     return indices;
   };
-  const unsigned effort = std::clamp(tile.wishes.effort, kLeastEffort, kMostEffort);
   const Features features = featuresOf(effort);
-  const TileStructure structure = findStructure(points.all(), tile.extent, features);
   using Encoding = TreeCoder<entropy::SymbolWriter, SortedPoints>;
   std::unique_ptr<Encoding> tree;
   for (unsigned layer = 0; layer < tile.layers; ++layer) {
@@ -238,6 +232,34 @@ inline EncodedTile encode(const TileInput& tile, const PointProgress& progress) 
   result.order = points.takeOrder();
   result.version = 0;
   return result;
+}
+
+inline std::size_t totalBytes(const EncodedTile& coded) {
+  std::size_t bytes = 0;
+  for (const Bytes& layer : coded.layers) bytes += layer.size();
+  return bytes;
+}
+
+inline EncodedTile encode(const TileInput& tile, const PointProgress& progress) {
+  if (tile.points.size() > std::numeric_limits<std::uint32_t>::max()) {
+    throw Error(ErrorCode::Unsupported,
+                "method predictive codes at most 4,294,967,295 points in one tile, and this set "
+                "has " +
+                    std::to_string(tile.points.size()));
+  }
+  const unsigned effort = std::clamp(tile.wishes.effort, kLeastEffort, kMostEffort);
+  TileStructure structure =
+      findStructure(SortedPoints(tile, progress).all(), tile.extent, featuresOf(effort));
+  EncodedTile best = encodeWith(structure, tile, effort, progress);
+  // Among few points many pairs look like mirrored ones by chance, and regular patterns mirror
+  // themselves although they are told in fewer bits as patterns.
+  constexpr std::size_t kFewPoints = 50000;
+  if (structure.plane && tile.points.size() <= kFewPoints) {
+    structure.plane.reset();
+    EncodedTile other = encodeWith(structure, tile, effort, progress);
+    if (totalBytes(other) < totalBytes(best)) best = std::move(other);
+  }
+  return best;
 }
 
 inline DecodedTile decode(const TileToDecode& tile, const PointProgress& progress) {
