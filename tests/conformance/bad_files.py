@@ -25,7 +25,7 @@ from bad_container import (
     streaming_rules,
     tile_rules,
 )
-from bad_payloads import array_rules, fast_rules, mesh_rules, partition_rules
+from bad_payloads import array_rules, fast_rules, mesh_rules, partition_rules, predictive_rules
 from content import Content
 from elementary import FormatError
 
@@ -50,6 +50,7 @@ def all_bad_files() -> Iterator[BadFile]:
     yield from partition_rules(methods)
     yield from fast_rules(good("fast_slabs_gaps"), good("fast_slabs_trees"), good("../golden/fast_noise"))
     yield from array_rules(good("../golden/kd_arrays"))
+    yield from predictive_rules(good("../golden/predictive_terrain_bits"))
     yield from mesh_rules(good("mesh"))
 
 

@@ -84,6 +84,25 @@ def fast_rules(slabs: bytes, trees: bytes, layers: bytes) -> Iterator[BadFile]:
     yield from cases.files
 
 
+def predictive_rules(good: bytes) -> Iterator[BadFile]:
+    """Section 13: the features in front, of a file of one tile."""
+    cases = PayloadCases(good)
+    cases.tile("predictive: an unknown version", UNSUPPORTED, coder=varint(6 << 4 | 1))
+    cases.tile("predictive: 2^32 points in a tile", points=varint(1 << 32), content=bytes(8))
+    # Raw bits of a fresh range coder stream stand in it as they are.
+    for what, start in (
+        ("effort 4", "48"),
+        ("effort 10", "A8"),
+        ("flags above 2^14", "F8000000006101000018"),
+        ("no cell points", "F0000000000101000018"),
+        ("25 near points", "F0000000006191000018"),
+        ("an unknown refit", "F0000000006101003800"),
+    ):
+        cases.payload(f"predictive: {what}", GEOMETRY, bytes.fromhex(start) + bytes(40))
+    cases.payload("predictive: no payload", GEOMETRY, b"")
+    yield from cases.files
+
+
 def array_rules(good: bytes) -> Iterator[BadFile]:
     """Section 14, of Testing/Data/golden/kd_arrays.bspc."""
     cases = PayloadCases(good)
@@ -110,8 +129,8 @@ def array_rules(good: bytes) -> Iterator[BadFile]:
     cases.array("residual: numbers of integers", UINT8, b"\3\x20" + bytes(8))
     cases.array("residual: unit of one component", FLOAT32, b"\3\x40" + bytes(8))
     cases.array("residual: sphere outside of a sphere", UINT8, b"\3\x60" + bytes(8))
-    cases.array("residual: a stream that ends early", UINT8, b"\3\0\xff")
-    cases.array("residual: a stream that goes on", UINT8, b"\3\0" + bytes(3000))
+    cases.array("residual: a residual longer than its word", UINT8, b"\3\0" + bytes(3000))
+    cases.array("residual: a stream that goes on", UINT8, b"\3\0" + b"\xff" * 3000)
     cases.array("mixing: a stream that goes on", UINT8, b"\4" + bytes(3000))
     cases.array("mixing: values beyond the type", 4, b"\4\1" + varint(65535) + b"\0" + bytes(3000))
     cases.array("categories: reserved flags", UINT8, b"\5\x08\1\0" + bytes(8))
@@ -144,7 +163,7 @@ def _lossy_array_rules(good: bytes, n: int) -> Iterator[BadFile]:
     cases.array("quantised: a base above 2^52", FLOAT32, quantised(1, (1 << 52) + 1, 1, b"\0" + inner))
     cases.array("quantised: integers of three bytes", FLOAT32, quantised(1, 0, 3, b"\0" + inner))
     cases.array("quantised: too many exceptions", FLOAT32, quantised(1, 0, 1, varint(n + 1) + bytes(8)))
-    far = b"\1" + varint(n) + bytes(4)
+    far = b"\1\2" + b"\1" + varint(n) + b"\1" + bytes(4)
     cases.array("quantised: an exception beyond the last", FLOAT32, quantised(1, 0, 1, far + inner))
     cases.array("quantised: inside of quantised", FLOAT32, quantised(1, 0, 1, b"\0\7" + bytes(12)))
     cases.array("sphere: of one component", FLOAT32, b"\x08\x08\0\0\0\0")
@@ -161,7 +180,8 @@ def _order_rules(good: bytes) -> Iterator[BadFile]:
     cases.payload("path: a momentum of 3", ORDER, b"\2\7" + bytes(200))
     for coarser in (0, 5):
         cases.payload(f"path: coarse cells of {coarser} bits more", ORDER, b"\2" + bytes([4 * coarser]) + bytes(200))
-    cases.payload("path: a stream that goes on", ORDER, b"\2\4" + bytes(2000))
+    cases.payload("path: a step of 63 bits", ORDER, b"\2\4" + bytes(2000))
+    cases.payload("path: a stream that goes on", ORDER, b"\2\4" + b"\xff" * 2000)
     cases.payload("path: no parameters", ORDER, b"\2")
     yield from cases.files
 
@@ -179,7 +199,7 @@ def mesh_rules(good: bytes) -> Iterator[BadFile]:
 
     with_record("a mesh record that ends early", record[:2])
     with_record("a mesh record that goes on", record + b"\0")
-    with_record("2^60 cells", varint(1 << 60) + record[1:])
+    with_record("2^60 cells", varint(1 << 60) * 3 + record[3:])
     with_record("a mesh without blocks", record[:-2] + b"\0" + record[-1:])
     with_record("other numbers of cells than the blocks have", b"\1" + record[1:])
     cases.set("no Mesh block", "truncated", mesh_blocks=[])

@@ -12,12 +12,14 @@ from fast import Fast
 from neighbours import Point
 from orders import decoded_order
 from partition_methods import Kd, Occupancy
+from predictive import Features
 from words import WordType
 from xxh3 import checksum, xxh3
 
 
 def geometry_of(tile: Tile):
     """The decoder of a tile's geometry."""
+    first_layer = tile.lacking
     name = METHODS.get(tile.method)
     require(name is not None, f"unknown method {tile.method}", "unsupported")
     require(tile.points < 1 << 32, "too many points for a tile")
@@ -30,6 +32,8 @@ def geometry_of(tile: Tile):
         return Bsp(*arguments)
     if name in ("octree", "gencode"):
         return Occupancy(*arguments, name == "octree")
+    if name == "predictive":
+        Features(tile.chunks[first_layer, 0, 0], tile.points, tile.version)
     raise NotImplementedError(f"geometry of method {name}")
 
 

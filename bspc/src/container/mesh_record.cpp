@@ -1,5 +1,7 @@
 #include "container/mesh_record.h"
 
+#include <algorithm>
+
 #include "bspc/error.h"
 #include "container/array_table.h"
 
@@ -8,7 +10,7 @@ namespace bspc::container {
 namespace {
 
 /// No mesh has as many cells of a sort.
-constexpr std::uint64_t kMostCells = std::uint64_t{1} << 60;
+constexpr std::uint64_t kTooManyCells = std::uint64_t{1} << 60;
 
 void writeCounts(ByteWriter& out, const CellCounts& counts) {
   out.varint(counts.vertices);
@@ -21,7 +23,7 @@ CellCounts readCounts(ByteReader& in) {
   counts.vertices = in.varint();
   counts.lines = in.varint();
   counts.faces = in.varint();
-  if (counts.vertices > kMostCells || counts.lines > kMostCells || counts.faces > kMostCells) {
+  if (std::max({counts.vertices, counts.lines, counts.faces}) >= kTooManyCells) {
     in.fail("an impossible number of cells");
   }
   return counts;

@@ -1,0 +1,50 @@
+"""The structure of method predictive, docs/format.md, section 13: what stands in front of its tree."""
+
+from __future__ import annotations
+
+from elementary import require
+from range_coder import RangeDecoder
+
+FLAGS = (
+    "quadric", "plane", "parallelograms", "projection", "separate kinds", "two scales",
+    "axis values", "wide coordinates", "density", "nearest", "many contexts", "phases", "mirrors",
+    "range images", "two layers",
+)  # fmt: skip
+_LOWEST = {"quadric", "parallelograms", "projection", "axis values", "phases", "mirrors", "range images"}
+_SEVENTH = _LOWEST | {"separate kinds", "nearest", "many contexts"}
+# Effort: flags, near points, pair reach, refit.
+EFFORTS = {
+    5: (_LOWEST, 6, 8, 0),
+    6: (_LOWEST, 10, 9, 1),
+    7: (_SEVENTH, 13, 14, 1),
+    8: (set(FLAGS), 14, 16, 1),
+    9: (set(FLAGS), 18, 16, 2),
+}
+OWN = 15
+
+
+class Features:
+    """How a tile was coded, and the lattices of its axes."""
+
+    def __init__(self, payload: bytes, points: int, version: int):
+        require(version == 0, "unknown version of predictive", "unsupported")
+        require(points < 1 << 32, "too many points for method predictive")
+        coder = RangeDecoder(payload)
+        self.effort = coder.raw(4)
+        self.cell_points = 6
+        if self.effort == OWN:
+            flags = coder.wide(32)
+            require(flags < 1 << len(FLAGS), "unknown features")
+            self.flags = {name for i, name in enumerate(FLAGS) if flags >> i & 1}
+            self.cell_points, self.near_points, self.pair_reach, self.refit = (
+                coder.raw(8) for _ in range(4)
+            )
+            require(self.cell_points >= 1, "cells of no points")
+            require(self.near_points <= 24, "too many near points")
+            require(self.refit <= 2, "an unknown way to refit")
+        else:
+            require(self.effort in EFFORTS, "an unknown effort")
+            self.flags, self.near_points, self.pair_reach, self.refit = EFFORTS[self.effort]
+        self.lattices = [0, 0, 0]
+        if "phases" in self.flags:
+            self.lattices = [coder.wide(32) if coder.bit(2048) else 0 for _ in range(3)]
