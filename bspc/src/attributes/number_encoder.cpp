@@ -286,8 +286,8 @@ class NumberEncoder {
   void addCategories(const CategorySettings& settings, const CategoryAlphabet& alphabet,
                      CategoryColumn column) {
     constexpr double kLearning = 0.95;
-    // A sample along the input and one along the curve are hard to compare.
-    constexpr double kElsewhere = 0.6;
+    // A sample along the input has other points than one along the curve: it does not tell.
+    constexpr double kElsewhere = 0;
     container::ByteWriter head;
     writeMethod(ArrayMethod::Categories, head);
     head.u8(packed(settings, alphabet.escapes));
