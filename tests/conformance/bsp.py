@@ -1,41 +1,47 @@
 """Method bsp of docs/format.md, section 11."""
 
+from __future__ import annotations
+
 from math import isqrt
 
 from elementary import require
 from partition_methods import CountModels, StopRule
 from range_coder import AdaptiveBit, AdaptiveSymbol, RangeDecoder
 
+Vector = tuple[int, int, int]
+Edge = tuple[int, int, int, int]  # from, to, face on the left, face on the right
+Face = tuple  # plane, whether the cell is in front, whether an axis face
+
 BELL = [1024, 1022, 1016, 1006, 992, 975, 954, 931, 904, 874, 842, 808, 773, 736, 698, 660, 621]
 BELL += [582, 544, 506, 469, 433, 398, 364, 332, 302, 273, 247, 221, 198, 177, 157, 139]
 
 
-def quotient(a, b):
+def quotient(a: int, b: int) -> int:
     """Towards zero."""
     return a // b if (a >= 0) == (b > 0) else -(-a // b)
 
 
-def rounded(a, b):
+def rounded(a: int, b: int) -> int:
     return (2 * a + b) // (2 * b)
 
 
-def root(v):
+def root(v: int) -> int:
     return isqrt(v) if v > 0 else 0
 
 
-def dot(a, b):
+def dot(a: Vector, b: Vector) -> int:
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
-def cross(a, b):
+def cross(a: Vector, b: Vector) -> Vector:
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
-def minus(a, b):
+def minus(a: Vector, b: Vector) -> Vector:
     return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
 
 
-def direction(e):
+def direction(e: Vector) -> Vector:
     length = root(dot(e, e))
     if length == 0:
         return (1 << 14, 0, 0)
@@ -43,12 +49,12 @@ def direction(e):
 
 
 class Polyhedron:
-    def __init__(self, vertices, edges, faces):
+    def __init__(self, vertices: list[Vector], edges: list[Edge], faces: dict[int, Face]) -> None:
         self.vertices, self.edges = vertices, edges
         self.faces = faces  # by number: (plane, whether the cell is in front, whether an axis face)
 
     @classmethod
-    def of_box(cls, extent):
+    def of_box(cls, extent: list[int]) -> "Polyhedron":
         size = [256 * (e + 1) for e in extent]
         vertices = [tuple(size[k] if i >> k & 1 else 0 for k in range(3)) for i in range(8)]
         edges = []
@@ -61,10 +67,10 @@ class Polyhedron:
                 edges.append((start, start + (1 << k), *(sides if at_a == at_b else sides[::-1])))
         return cls(vertices, edges, {f: (None, False, True) for f in range(6)})
 
-    def oblique(self):
+    def oblique(self) -> list[Face]:
         return [f for f in self.faces.values() if not f[2]]
 
-    def too_large(self, crossed):
+    def too_large(self, crossed: int) -> bool:
         return (
             len(self.vertices) + crossed > 64
             or len(self.edges) + crossed > 128
@@ -73,18 +79,18 @@ class Polyhedron:
 
 
 class Plane:
-    def __init__(self, normal, offset, axis=None, at=None):
+    def __init__(self, normal: Vector, offset: int, axis: int | None = None, at: int | None = None) -> None:
         self.normal, self.offset, self.axis, self.at = normal, offset, axis, at
 
     @classmethod
-    def across(cls, axis, at):
+    def across(cls, axis: int, at: int) -> "Plane":
         return cls(tuple(int(k == axis) for k in range(3)), 2 * at, axis, at)
 
-    def in_front(self, p):
+    def in_front(self, p: Vector) -> bool:
         return dot(self.normal, (2 * p[0] + 1, 2 * p[1] + 1, 2 * p[2] + 1)) >= self.offset
 
 
-def crossing(a, b, height_a, height_b, plane):
+def crossing(a: Vector, b: Vector, height_a: int, height_b: int, plane: Plane) -> Vector:
     part, whole = abs(height_a), abs(height_a) + abs(height_b)
     shift = max(whole.bit_length() - 32, 0)
     part, whole = part >> shift, whole >> shift
@@ -95,7 +101,7 @@ def crossing(a, b, height_a, height_b, plane):
     return tuple(point)
 
 
-def side_of(polyhedron, plane, heights, front):
+def side_of(polyhedron: Polyhedron, plane: Plane, heights: list[int], front: bool) -> Polyhedron:
     """The polyhedron of a side, and the polyhedron's old vertices in it."""
     number, vertices = {}, []
     for v, vertex in enumerate(polyhedron.vertices):
@@ -127,7 +133,7 @@ def side_of(polyhedron, plane, heights, front):
     return Polyhedron(vertices, edges, faces)
 
 
-def volume(side, bits):
+def volume(side: Polyhedron, bits: int) -> int:
     shift = max(bits - 15, 0)
     first = side.vertices[0]
     at = [tuple(x >> shift for x in minus(v, first)) for v in side.vertices]
@@ -141,21 +147,23 @@ def volume(side, bits):
 class Cell:
     __slots__ = ("lower", "upper", "points", "level", "history", "polyhedron")
 
-    def __init__(self, lower, upper, points, level, history, polyhedron):
+    def __init__(
+        self, lower: Vector, upper: Vector, points: int, level: int, history: int, polyhedron: Polyhedron | None
+    ) -> None:
         self.lower, self.upper, self.points = lower, upper, points
         self.level, self.history, self.polyhedron = level, history, polyhedron
 
-    def places(self):
+    def places(self) -> int:
         return box_places(self.lower, self.upper)
 
-    def small(self):
+    def small(self) -> bool:
         return self.places() <= 64
 
-    def representative(self):
+    def representative(self) -> Vector:
         return tuple(l + (u - l) // 2 for l, u in zip(self.lower, self.upper))
 
 
-def box_places(lower, upper):
+def box_places(lower: Vector, upper: Vector) -> int:
     product = 1
     for l, u in zip(lower, upper):
         product *= max(u - l + 1, 0)
@@ -163,7 +171,7 @@ def box_places(lower, upper):
 
 
 class Bsp:
-    def __init__(self, points, extent, version):
+    def __init__(self, points: int, extent: list[int], version: int) -> None:
         require(version == 0, "unknown version of bsp", "unsupported")
         require(all(e < 1 << 21 for e in extent), "extents above 21 bits")
         self.started = False
@@ -173,7 +181,7 @@ class Bsp:
         self.deeper = AdaptiveBit()
         self.cells = [Cell((0, 0, 0), tuple(extent), points, 0, 0, Polyhedron.of_box(extent))]
 
-    def layer(self, payload, last):
+    def layer(self, payload: bytes, last: bool) -> tuple[list[Vector], list[int]]:
         coder = RangeDecoder(payload)
         if not self.started:
             self._read_parameters(coder)
@@ -188,7 +196,7 @@ class Bsp:
         coder.finish()
         return [c.representative() for c in self.cells], [c.points for c in self.cells]
 
-    def _read_parameters(self, coder):
+    def _read_parameters(self, coder: RangeDecoder) -> None:
         self.started = True
         self.bits_less, self.planes_above, slack_class = (3, 5, 7), 10, 0
         self.stop = StopRule()
@@ -199,17 +207,17 @@ class Bsp:
             self.stop = StopRule.read(coder)
         self.slack = 1 << 31 if slack_class == 7 else 6 * 8**slack_class
 
-    def _next(self, coder, cell):
+    def _next(self, coder: RangeDecoder, cell: Cell) -> list[Cell]:
         """A cell of the list one level deeper."""
         if self._divisible(cell):
             return self._cut(coder, cell)
         cell.level += 1
         return [cell]
 
-    def _divisible(self, cell):
+    def _divisible(self, cell: Cell) -> bool:
         return not cell.small() and not self.stop.stops(cell.points, cell.level)
 
-    def _gaussian(self, coder, size, context):
+    def _gaussian(self, coder: RangeDecoder, size: int, context: tuple) -> int:
         key = (size, context)
         if key not in self.gaussians:
             start = [
@@ -218,7 +226,7 @@ class Bsp:
             self.gaussians[key] = AdaptiveSymbol(size, start, 16, 32768)
         return coder.symbol(self.gaussians[key])
 
-    def _cut(self, coder, cell):
+    def _cut(self, coder: RangeDecoder, cell: Cell) -> list[Cell]:
         polyhedron = cell.polyhedron
         if cell.level >= 160:
             polyhedron = None
@@ -246,13 +254,13 @@ class Bsp:
         return result
 
     @staticmethod
-    def _middle_plane(cell):
+    def _middle_plane(cell: Cell) -> Plane:
         lengths = [cell.upper[k] - cell.lower[k] for k in range(3)]
         axis = lengths.index(max(lengths))
         return Plane.across(axis, cell.lower[axis] + lengths[axis] // 2 + 1)
 
     @staticmethod
-    def _cut_box(lower, upper, plane, front):
+    def _cut_box(lower: Vector, upper: Vector, plane: Plane, front: bool) -> tuple[Vector, Vector]:
         lower, upper = list(lower), list(upper)
         if front:
             lower[plane.axis] = max(lower[plane.axis], plane.at)
@@ -260,7 +268,9 @@ class Bsp:
             upper[plane.axis] = min(upper[plane.axis], plane.at - 1)
         return tuple(lower), tuple(upper)
 
-    def _cut_polyhedron(self, cell, polyhedron, plane):
+    def _cut_polyhedron(
+        self, cell: Cell, polyhedron: Polyhedron, plane: Plane
+    ) -> tuple[list | None, bool, list[int] | None]:
         heights = [2 * dot(plane.normal, v) - 256 * plane.offset for v in polyhedron.vertices]
         in_front = sum(h >= 0 for h in heights)
         if in_front in (0, len(heights)):
@@ -289,7 +299,7 @@ class Bsp:
             ratio.append(volume(part, (greatest + 1).bit_length()))
         return sides, True, ratio
 
-    def _side_box(self, cell, part, plane, front):
+    def _side_box(self, cell: Cell, part: Polyhedron, plane: Plane, front: bool) -> tuple[Vector, Vector]:
         lower, upper = cell.lower, cell.upper
         if plane.axis is not None:
             lower, upper = self._cut_box(lower, upper, plane, front)
@@ -300,7 +310,9 @@ class Bsp:
             highs.append(min(upper[k], (max(along) - 128 + self.slack) // 256))
         return tuple(lows), tuple(highs)
 
-    def _share_points(self, coder, cell, sides, ratio):
+    def _share_points(
+        self, coder: RangeDecoder, cell: Cell, sides: list, ratio: list[int]
+    ) -> tuple[tuple[int, int], int]:
         n, history = cell.points, cell.history
         empty = [box_places(s[0], s[1]) == 0 for s in sides]
         require(not all(empty), "both sides of a cell are empty")
@@ -324,7 +336,7 @@ class Bsp:
             front = first + coder.uniform(end - first - 1)
         return (front, n - front), int(front in (0, n))
 
-    def _parameter(self, coder, which, bits):
+    def _parameter(self, coder: RangeDecoder, which: int, bits: int) -> int:
         if bits == 0:
             return 0
         top = min(bits, 6)
@@ -336,7 +348,7 @@ class Bsp:
         x = (t * t << 14) // 4**bits
         return x if t >= 0 else -x
 
-    def _coded_plane(self, coder, cell):
+    def _coded_plane(self, coder: RangeDecoder, cell: Cell) -> Plane:
         vertices = cell.polyhedron.vertices
         bits = (0, 0, 0)
         if cell.level < self.planes_above:
@@ -372,7 +384,7 @@ class Bsp:
         normal = tuple((x + 2) >> 2 for x in normal)
         return Plane(normal, rounded(2 * dot(normal, at), 256))
 
-    def _finish(self, coder, cell, points):
+    def _finish(self, coder: RangeDecoder, cell: Cell, points: list[Vector]) -> None:
         stack = [cell]
         while stack:
             cell = stack.pop()
@@ -387,7 +399,7 @@ class Bsp:
             else:
                 stack += reversed(self._cut(coder, cell))
 
-    def _places(self, coder, cell, points):
+    def _places(self, coder: RangeDecoder, cell: Cell, points: list[Vector]) -> None:
         if cell.points == 1 and cell.polyhedron is None:
             points.append(tuple(l + coder.uniform(u - l) for l, u in zip(cell.lower, cell.upper)))
             return
@@ -402,7 +414,7 @@ class Bsp:
         require(places, "a cell without places")
         self._share_places(coder, places, cell.points, points)
 
-    def _share_places(self, coder, places, n, points):
+    def _share_places(self, coder: RangeDecoder, places: list[Vector], n: int, points: list[Vector]) -> None:
         m = len(places)
         if n == 0:
             return

@@ -1,5 +1,7 @@
 """The container of docs/format.md, sections 2 to 6: everything but the payloads."""
 
+from __future__ import annotations
+
 import struct
 
 import zstd
@@ -14,14 +16,14 @@ METHODS = {1: "kd", 2: "fast", 3: "bsp", 4: "octree", 5: "gencode", 6: "predicti
 
 
 class ArrayDescription:
-    def __init__(self, name=b"", scalar_type=UINT32, components=3):
+    def __init__(self, name: bytes = b"", scalar_type: int = UINT32, components: int = 3) -> None:
         self.name = name
         self.scalar_type = scalar_type
         self.components = components
         self.component_names, self.unit, self.semantic, self.tolerance = [], b"", 0, 0.0
 
     @classmethod
-    def read(cls, reader):
+    def read(cls, reader: Reader) -> "ArrayDescription":
         name = reader.text()
         require(name, "an array without a name")
         kind = reader.u8()
@@ -39,20 +41,20 @@ class ArrayDescription:
             require(0 < array.tolerance < float("inf"), "a tolerance is not positive and finite")
         return array
 
-    def content_width(self, points):
+    def content_width(self, points: int) -> int:
         if self.scalar_type == STRING or points >= 65536:
             return 8
         return checksum_width(points * self.components * value_size(self.scalar_type))
 
 
-def array_table(reader):
+def array_table(reader: Reader) -> list[ArrayDescription]:
     arrays = [ArrayDescription.read(reader) for _ in range(reader.varint())]
     require(len({a.name for a in arrays}) == len(arrays), "two arrays have the same name")
     return arrays
 
 
 class Metadata:
-    def __init__(self, content=b"\0\0\0\0\0"):
+    def __init__(self, content: bytes = b"\0\0\0\0\0") -> None:
         packed = content[0] if content else 2
         require(packed < 2, "unknown form of metadata")
         self.content = zstd.any_frame(content[1:]) if packed else bytes(content[1:])
@@ -77,7 +79,7 @@ class Metadata:
 
 
 class MeshRecord:
-    def __init__(self, content):
+    def __init__(self, content: bytes) -> None:
         reader = Reader(content)
         self.counts = [reader.varint() for _ in range(3)]
         require(all(c < 1 << 60 for c in self.counts), "too many cells")
@@ -88,7 +90,7 @@ class MeshRecord:
 
 
 class MeshBlock:
-    def __init__(self, content, record):
+    def __init__(self, content: bytes, record: MeshRecord) -> None:
         reader = Reader(content)
         self.first_tile, self.tiles = reader.varint(), reader.varint()
         self.counts = [reader.varint() for _ in range(3)]
@@ -97,7 +99,7 @@ class MeshBlock:
         reader.finish()
 
 
-def _chunk_size(reader):
+def _chunk_size(reader: Reader) -> int:
     size = reader.varint()
     require(size < (1 << 64) - 1, "a chunk of 2^64 - 1 bytes")
     return size
@@ -106,7 +108,7 @@ def _chunk_size(reader):
 class Tile:
     """A tile record, and then the payloads of its chunks."""
 
-    def __init__(self, reader, head):
+    def __init__(self, reader: Reader, head: "Head") -> None:
         start = reader.position
         flags = reader.u8()
         coder = reader.varint()
@@ -137,7 +139,7 @@ class Tile:
             self._read_arrays(reader, head)
         self.record = bytes(reader.data[start : reader.position])
 
-    def _read_layers(self, reader):
+    def _read_layers(self, reader: Reader) -> None:
         self.representatives, self.spreads = [], []
         for _ in range(self.layers - 1):
             self.representatives.append(reader.varint())
@@ -148,7 +150,7 @@ class Tile:
         self.representatives.append(self.points)
         self.spreads.append(0)
 
-    def _read_arrays(self, reader, head):
+    def _read_arrays(self, reader: Reader, head: "Head") -> None:
         flags = reader.u8()
         require(flags < 8 and flags & 3 != 3, "reserved flags of arrays")
         self.order_kind = flags & 3
@@ -166,7 +168,7 @@ class Tile:
             self.array_sizes.append(sizes)
             self.needs_order.append(needs)
 
-    def chunk_sizes(self, layers):
+    def chunk_sizes(self, layers: int) -> list[tuple[tuple[int, int, int], int]]:
         """(column, kind, size) of all chunks in the order of the columns of `layers` layers."""
         chunks = []
         for own, layer in enumerate(range(self.lacking, layers)):
@@ -182,7 +184,7 @@ class Tile:
 
 
 class Head:
-    def __init__(self, content):
+    def __init__(self, content: bytes) -> None:
         reader = Reader(content)
         self.flags = flags = reader.u8()
         self.layers = (flags & 31) + 1
@@ -200,7 +202,7 @@ class Head:
         self.tiles = None if self.streaming else [Tile(reader, self) for _ in range(reader.varint())]
         reader.finish()
 
-    def _read_records(self, reader):
+    def _read_records(self, reader: Reader) -> None:
         count = reader.varint()
         require(count >= 1, "no records")
         last = -1
@@ -225,7 +227,7 @@ class Head:
                 require(tag >= 128, "unknown record", "unsupported")
 
 
-def _require_optional(kind):
+def _require_optional(kind: int) -> None:
     require(not HEAD <= kind <= MESH, "a block out of place")
     require(kind >= 128, "a block of unknown type", "unsupported")
 
@@ -233,7 +235,7 @@ def _require_optional(kind):
 class File:
     """A whole file: its head, its tiles with the payloads of their chunks, its mesh blocks."""
 
-    def __init__(self, data):
+    def __init__(self, data: bytes) -> None:
         self.reader = Reader(data, short="truncated")
         require(data and SIGNATURE.startswith(bytes(data[:8])), "no signature", "not bspc")
         self.reader.bytes(8)
@@ -250,7 +252,7 @@ class File:
         require(self.reader.left() == 0, "the file goes on after its end")
         self._check_mesh()
 
-    def _block(self, covered_before=0):
+    def _block(self, covered_before: int = 0) -> tuple[int, bytes]:
         start = self.reader.position
         kind = self.reader.u8()
         size = self.reader.varint()
@@ -260,12 +262,12 @@ class File:
         require(checksum(covered, size) == self.reader.unsigned(width), "a block is damaged")
         return kind, content
 
-    def _chunk(self, size):
+    def _chunk(self, size: int) -> bytes:
         payload = self.reader.bytes(size)
         require(checksum(payload) == self.reader.unsigned(checksum_width(size)), "a chunk is damaged")
         return payload
 
-    def _read_progressive(self):
+    def _read_progressive(self) -> None:
         self.tiles = self.head.tiles
         columns = {}
         for t, tile in enumerate(self.tiles):
@@ -282,7 +284,7 @@ class File:
         if self.head.trailing:
             self._read_trailing({END})
 
-    def _read_trailing(self, last):
+    def _read_trailing(self, last: set[int]) -> tuple[int, bytes]:
         """Optional blocks up to one of a type in `last`, which is returned."""
         while True:
             start = self.reader.position
@@ -294,14 +296,14 @@ class File:
                 return start, content
             _require_optional(kind)
 
-    def _require_end_block(self):
+    def _require_end_block(self) -> None:
         """Without one, a streaming file counts as one that ends early."""
         end = Reader(self.reader.data, max(len(self.reader.data) - 14, 0), short="truncated")
         start = end.bytes(10)
         require(start[:2] == bytes([END, 8]), "no end block", "truncated")
         require(checksum(start) == end.unsigned(4), "no end block", "truncated")
 
-    def _read_streaming(self):
+    def _read_streaming(self) -> None:
         self._require_end_block()
         self.tiles = []
         index = None
@@ -329,11 +331,11 @@ class File:
         require(kind == END and len(content) == 8, "no end block")
         require(int.from_bytes(content, "little") == index, "the end block names another index")
 
-    def _add_mesh(self, content):
+    def _add_mesh(self, content: bytes) -> None:
         self.mesh_blocks.append(MeshBlock(content, self.head.mesh))
         self.mesh_contents.append(bytes(content))
 
-    def _check_mesh(self):
+    def _check_mesh(self) -> None:
         record = self.head.mesh
         if record is None:
             return

@@ -1,22 +1,24 @@
 """Elementary types of docs/format.md, section 1."""
 
+from __future__ import annotations
+
 import struct
 
 
 class FormatError(Exception):
     """A rule of the format is violated; `kind` is corrupt, truncated, unsupported or not bspc."""
 
-    def __init__(self, message, kind="corrupt"):
+    def __init__(self, message: str, kind: str = "corrupt") -> None:
         super().__init__(message)
         self.kind = kind
 
 
-def require(condition, message, kind="corrupt"):
+def require(condition: object, message: str, kind: str = "corrupt") -> None:
     if not condition:
         raise FormatError(message, kind)
 
 
-def bit_length(value):
+def bit_length(value: int) -> int:
     return value.bit_length()
 
 
@@ -37,19 +39,19 @@ BIT, STRING = 10, 11
 FLOAT32, FLOAT64, UINT8, UINT16, UINT32, UINT64 = 0, 1, 3, 5, 7, 9
 
 
-def type_name(scalar_type):
+def type_name(scalar_type: int) -> str:
     return {BIT: "bit", STRING: "string"}.get(scalar_type) or SCALAR_TYPES[scalar_type][0]
 
 
-def value_size(scalar_type):
+def value_size(scalar_type: int) -> int:
     return 1 if scalar_type == BIT else SCALAR_TYPES[scalar_type][1]
 
 
-def is_float(scalar_type):
+def is_float(scalar_type: int) -> bool:
     return scalar_type in (FLOAT32, FLOAT64)
 
 
-def float32(value):
+def float32(value: float) -> float:
     """The nearest float32 of a float64; infinite beyond the greatest."""
     try:
         return struct.unpack("<f", struct.pack("<f", value))[0]
@@ -60,30 +62,32 @@ def float32(value):
 class Reader:
     """Reads elementary types from bytes, from the first on."""
 
-    def __init__(self, data, position=0, end=None, short="corrupt"):
+    def __init__(
+        self, data: bytes, position: int = 0, end: int | None = None, short: str = "corrupt"
+    ) -> None:
         """`short` is the kind of error if the data end early: only those of a file are truncated."""
         self.data, self.short = data, short
         self.position = position
         self.end = len(data) if end is None else end
 
-    def left(self):
+    def left(self) -> int:
         return self.end - self.position
 
-    def bytes(self, size):
+    def bytes(self, size: int) -> bytes:
         require(size <= self.left(), "content ends early", self.short)
         self.position += size
         return self.data[self.position - size : self.position]
 
-    def rest(self):
+    def rest(self) -> bytes:
         return self.bytes(self.left())
 
-    def u8(self):
+    def u8(self) -> int:
         return self.bytes(1)[0]
 
-    def unsigned(self, size):
+    def unsigned(self, size: int) -> int:
         return int.from_bytes(self.bytes(size), "little")
 
-    def varint(self):
+    def varint(self) -> int:
         value = 0
         for i in range(10):
             byte = self.u8()
@@ -94,12 +98,12 @@ class Reader:
                 return value
         raise FormatError("a varint is above 64 bits")
 
-    def svarint(self):
+    def svarint(self) -> int:
         value = self.varint()
         return value // 2 if value % 2 == 0 else -(value // 2) - 1
 
-    def text(self):
+    def text(self) -> bytes:
         return self.bytes(self.varint())
 
-    def finish(self):
+    def finish(self) -> None:
         require(self.position == self.end, "content goes on after its end")

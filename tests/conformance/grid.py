@@ -1,16 +1,18 @@
 """The grid of docs/format.md, section 4."""
 
+from __future__ import annotations
+
 import math
 import struct
 from math import gcd
 
-from elementary import FLOAT32, FLOAT64, SCALAR_TYPES, float32, is_float, require
+from elementary import FLOAT32, FLOAT64, SCALAR_TYPES, Reader, float32, is_float, require
 
 RATIONAL, AFFINE, FLOAT_BITS = 0, 1, 2
 
 
 class Grid:
-    def __init__(self, reader):
+    def __init__(self, reader: Reader) -> None:
         kind = reader.u8()
         self.scalar_type = kind & 15
         require(self.scalar_type < 10, "unknown scalar type", "unsupported")
@@ -34,10 +36,10 @@ class Grid:
             require(is_float(self.scalar_type), "float bits of integers")
             require(all(0 <= b < 1 << 32 for b in self.bases), "a base is too large")
 
-    def has_low_halves(self):
+    def has_low_halves(self) -> bool:
         return self.form == FLOAT_BITS and self.scalar_type == FLOAT64
 
-    def check_box(self, lower, upper):
+    def check_box(self, lower: list[int], upper: list[int]) -> None:
         if self.form != FLOAT_BITS:
             return
         for corner in (lower, upper):
@@ -47,7 +49,7 @@ class Grid:
                 value = self._float_at(place, 0)
                 require(math.isfinite(value), "a corner of a box is not finite")
 
-    def _float_at(self, place, low):
+    def _float_at(self, place: int, low: int) -> float:
         if self.scalar_type == FLOAT32:
             bits = place - (1 << 31) if place >> 31 else place ^ 0xFFFFFFFF
             return struct.unpack("<f", struct.pack("<I", bits))[0]
@@ -55,7 +57,7 @@ class Grid:
         bits = place - (1 << 63) if place >> 63 else place ^ 0xFFFFFFFFFFFFFFFF
         return struct.unpack("<d", struct.pack("<Q", bits))[0]
 
-    def coordinate(self, axis, i, low=0):
+    def coordinate(self, axis: int, i: int, low: int = 0) -> float:
         place = self.bases[axis] + i
         if self.form == FLOAT_BITS:
             return self._float_at(place, low)
@@ -66,7 +68,7 @@ class Grid:
             value = self.origins[axis] + float(place) * self.steps[axis]
         return self._rounded(value)
 
-    def _rounded(self, value):
+    def _rounded(self, value: float) -> float:
         if self.scalar_type == FLOAT64:
             return value + 0.0
         if self.scalar_type == FLOAT32:
@@ -82,7 +84,7 @@ class Grid:
         return float(min(max(whole, low), high))
 
 
-def _ratio(reader):
+def _ratio(reader: Reader) -> tuple[int, int]:
     odd_p, odd_q, exponent = reader.varint(), reader.varint(), reader.svarint()
     for odd in (odd_p, odd_q):
         require(odd % 2 == 1 and odd < 1 << 53, "a part of a step is not odd or too large")
@@ -93,7 +95,7 @@ def _ratio(reader):
     return p, q
 
 
-def _numbers(reader, count):
+def _numbers(reader: Reader, count: int) -> list[float]:
     packed = reader.bytes(count // 2)
     numbers = []
     for i in range(count):

@@ -5,21 +5,25 @@ returns the representatives (or points) relative to the tile's lower corner, and
 each stands for.
 """
 
+from __future__ import annotations
+
 from elementary import require
 from range_coder import AdaptiveBit, AdaptiveBits, AdaptiveSymbol, RangeDecoder
 
+Corner = tuple[int, int, int]
+
 
 class StopRule:
-    def __init__(self, points=None, level=None):
+    def __init__(self, points: int | None = None, level: int | None = None) -> None:
         self.points, self.level = points, level
 
     @classmethod
-    def read(cls, coder):
+    def read(cls, coder: RangeDecoder) -> "StopRule":
         points = coder.wide(32) if coder.raw(1) else None
         level = coder.raw(10) if coder.raw(1) else None
         return cls(points, level)
 
-    def stops(self, points, level):
+    def stops(self, points: int, level: int) -> bool:
         return (self.points is not None and points <= self.points) or (
             self.level is not None and level >= self.level
         )
@@ -28,11 +32,11 @@ class StopRule:
 class CountModels:
     """The number of points in a lower half (section 9)."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.bits = AdaptiveBits()
         self.buckets = {}
 
-    def lower_count(self, coder, n, history, size_class):
+    def lower_count(self, coder: RangeDecoder, n: int, history: int, size_class: int) -> int:
         if n <= 16:
             fewer = 0
             while fewer < n // 2 and coder.adaptive(self.bits["few", n, size_class, history, fewer]):
@@ -52,7 +56,7 @@ class CountModels:
 class Box:
     """The cells of section 9: the axis and the halved side of each depth."""
 
-    def __init__(self, extent):
+    def __init__(self, extent: list[int]) -> None:
         self.extent = extent
         bits = [e.bit_length() for e in extent]
         self.bits = [tuple(bits)]
@@ -64,16 +68,16 @@ class Box:
             self.bits.append(tuple(bits))
         self.depth = len(self.axes)
 
-    def inside(self, lower, axis, bits):
+    def inside(self, lower: Corner, axis: int, bits: int) -> int:
         """Steps of a cell inside the box along an axis."""
         return min(1 << bits, self.extent[axis] + 1 - lower[axis])
 
-    def middle(self, lower, depth):
+    def middle(self, lower: Corner, depth: int) -> Corner:
         return tuple(
             lower[k] + (self.inside(lower, k, self.bits[depth][k]) - 1) // 2 for k in range(3)
         )
 
-    def place(self, coder, lower, depth):
+    def place(self, coder: RangeDecoder, lower: Corner, depth: int) -> Corner:
         """The place of a point in a cell, method kd."""
         point = []
         for k in range(3):
@@ -87,19 +91,19 @@ class Box:
                 point.append(lower[k] + coder.uniform(inside - 1))
         return tuple(point)
 
-    def upper(self, lower, axis, bits):
+    def upper(self, lower: Corner, axis: int, bits: int) -> Corner:
         corner = list(lower)
         corner[axis] += 1 << bits
         return tuple(corner)
 
 
-def lower_half(coder, inside, bits):
+def lower_half(coder: RangeDecoder, inside: int, bits: int) -> int:
     """Whether a single point lies in the lower half of 2^bits of `inside` steps."""
     return coder.bit(min((1 << bits + 16) // inside, 65535))
 
 
 class Kd:
-    def __init__(self, points, extent, version):
+    def __init__(self, points: int, extent: list[int], version: int) -> None:
         require(version <= 1, "unknown version of kd", "unsupported")
         self.box = Box(extent)
         self.stop = None if version else StopRule()
@@ -107,7 +111,7 @@ class Kd:
         self.deeper = AdaptiveBit()
         self.cells = [((0, 0, 0), points, 0, 0)]  # lower corner, points, depth, history
 
-    def layer(self, payload, last):
+    def layer(self, payload: bytes, last: bool) -> tuple[list[Corner], list[int]]:
         coder = RangeDecoder(payload)
         if self.stop is None:
             self.stop = StopRule.read(coder)
@@ -120,10 +124,10 @@ class Kd:
         coder.finish()
         return [self.box.middle(c[0], c[2]) for c in self.cells], [c[1] for c in self.cells]
 
-    def _divisible(self, cell):
+    def _divisible(self, cell: tuple) -> bool:
         return cell[2] < self.box.depth and not self.stop.stops(cell[1], cell[2])
 
-    def _split(self, coder, cell):
+    def _split(self, coder: RangeDecoder, cell: tuple) -> list[tuple]:
         lower, n, depth, history = cell
         axis = self.box.axes[depth]
         bits = self.box.bits[depth + 1][axis]
@@ -139,7 +143,7 @@ class Kd:
         halves = [(lower, in_lower), (self.box.upper(lower, axis, bits), n - in_lower)]
         return [(corner, count, depth + 1, history) for corner, count in halves if count]
 
-    def _finish(self, coder, cell):
+    def _finish(self, coder: RangeDecoder, cell: tuple) -> list[Corner]:
         stack = [cell]
         points = []
         while stack:
@@ -161,21 +165,23 @@ ONE, MANY, SOME = "one", "many", "some"
 class Node:
     __slots__ = ("lower", "depth", "kind", "known", "history")
 
-    def __init__(self, lower, depth, kind, known=None, history=0):
+    def __init__(
+        self, lower: Corner, depth: int, kind: str, known: int | None = None, history: int = 0
+    ) -> None:
         self.lower, self.depth, self.kind = lower, depth, kind
         self.known, self.history = known, history
 
-    def lone(self):
+    def lone(self) -> bool:
         return self.kind == ONE or self.known == 1
 
-    def fewest(self):
+    def fewest(self) -> int:
         return 2 if self.kind == MANY else 1
 
 
 class Occupancy:
     """Methods octree and gencode."""
 
-    def __init__(self, points, extent, version, octree):
+    def __init__(self, points: int, extent: list[int], version: int, octree: bool) -> None:
         require(version == 0, "unknown version of octree or gencode", "unsupported")
         require(all(e < 1 << 21 for e in extent), "extents above 21 bits")
         self.octree = octree
@@ -187,7 +193,7 @@ class Occupancy:
         kind = ONE if points == 1 else SOME if octree else MANY
         self.cells = [Node((0, 0, 0), 0, kind, points)]
 
-    def layer(self, payload, last):
+    def layer(self, payload: bytes, last: bool) -> tuple[list[Corner], list[int]]:
         coder = RangeDecoder(payload)
         if last:
             points = []
@@ -213,7 +219,7 @@ class Occupancy:
         self.cells = [c for group in groups for c in group]
         return [self.box.middle(c.lower, c.depth) for c in self.cells], [c.known for c in self.cells]
 
-    def _share_out(self, coder, cells, excess):
+    def _share_out(self, coder: RangeDecoder, cells: list[Node], excess: int) -> None:
         if len(cells) == 1:
             require(excess == 0 or cells[0].kind != ONE, "points for a cell of one")
             cells[0].known += excess
@@ -231,7 +237,7 @@ class Occupancy:
         self._share_out(coder, parts[0], first)
         self._share_out(coder, parts[1], excess - first)
 
-    def _level(self, depth):
+    def _level(self, depth: int) -> list[int]:
         """The depths of the level that begins at a depth."""
         if not self.octree:
             return [depth]
@@ -241,13 +247,13 @@ class Occupancy:
             depths.append(depths[-1] + 1)
         return depths
 
-    def _halves(self, lower, depth):
+    def _halves(self, lower: Corner, depth: int) -> tuple[tuple[Corner, ...], int, int]:
         axis = self.box.axes[depth]
         bits = self.box.bits[depth + 1][axis]
         inside = self.box.inside(lower, axis, bits + 1)
         return (lower, self.box.upper(lower, axis, bits)) if inside > 1 << bits else (lower,), inside, bits
 
-    def _split(self, coder, cell):
+    def _split(self, coder: RangeDecoder, cell: Node) -> list[Node]:
         depths = self._level(cell.depth)
         end = depths[-1] + 1
         if cell.lone():
@@ -263,7 +269,7 @@ class Occupancy:
             return self._split_some(coder, cell, corners, end)
         return self._split_many(coder, cell, corners, end)
 
-    def _split_some(self, coder, cell, corners, end):
+    def _split_some(self, coder: RangeDecoder, cell: Node, corners: list[Corner], end: int) -> list[Node]:
         count = len(corners)
         found, bits = [], 0
         for i, corner in enumerate(corners):
@@ -279,7 +285,7 @@ class Occupancy:
             history = min(history + 1, 3) if len(found) == 1 else 0
         return [Node(c, end, SOME, None, history) for c in found]
 
-    def _split_many(self, coder, cell, corners, end):
+    def _split_many(self, coder: RangeDecoder, cell: Node, corners: list[Corner], end: int) -> list[Node]:
         if len(corners) == 1:
             return [Node(corners[0], end, MANY, None, cell.history)]
         bits = self.box.bits[end][self.box.axes[cell.depth]]
@@ -289,7 +295,7 @@ class Occupancy:
         history = (2 * cell.history + (symbol < 2)) % 8
         return [Node(c, end, k, None, history) for c, k in zip(corners, kinds) if k]
 
-    def _finish(self, coder, cell, points):
+    def _finish(self, coder: RangeDecoder, cell: Node, points: list[Corner]) -> None:
         stack = [cell]
         while stack:
             cell = stack.pop()
@@ -306,7 +312,7 @@ class Occupancy:
             else:
                 stack += reversed(self._split(coder, cell))
 
-    def _count(self, coder, cell):
+    def _count(self, coder: RangeDecoder, cell: Node) -> int:
         k = 0
         while k < 34 and coder.adaptive(self.bits["count", k]):
             k += 1

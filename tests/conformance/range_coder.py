@@ -1,5 +1,7 @@
 """The range decoder of docs/format.md, section 8."""
 
+from __future__ import annotations
+
 from elementary import FormatError, require
 
 MASK64 = (1 << 64) - 1
@@ -9,7 +11,7 @@ MASK32 = (1 << 32) - 1
 class AdaptiveBit:
     __slots__ = ("probability", "age")
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.probability = 32768
         self.age = 0
 
@@ -17,19 +19,19 @@ class AdaptiveBit:
 class AdaptiveBits(dict):
     """A model for each context that occurs."""
 
-    def __missing__(self, context):
+    def __missing__(self, context: tuple) -> "AdaptiveBit":
         model = self[context] = AdaptiveBit()
         return model
 
 
 class AdaptiveSymbol:
-    def __init__(self, size, first=24, growth=24, limit=16384):
+    def __init__(self, size: int, first: int | list[int] = 24, growth: int = 24, limit: int = 16384) -> None:
         self.frequencies = list(first) if isinstance(first, list) else [first] * size
         self.total = sum(self.frequencies)
         self.growth = growth
         self.limit = limit
 
-    def learn(self, symbol):
+    def learn(self, symbol: int) -> None:
         self.frequencies[symbol] += self.growth
         self.total += self.growth
         if self.total > self.limit:
@@ -38,7 +40,7 @@ class AdaptiveSymbol:
 
 
 class RangeDecoder:
-    def __init__(self, data):
+    def __init__(self, data: bytes) -> None:
         self.data = bytes(data)
         self.position = 0
         self.missing = 0
@@ -47,7 +49,7 @@ class RangeDecoder:
         for _ in range(8):
             self.code = self.code << 8 | self._byte()
 
-    def _byte(self):
+    def _byte(self) -> int:
         if self.position < len(self.data):
             self.position += 1
             return self.data[self.position - 1]
@@ -56,17 +58,17 @@ class RangeDecoder:
             raise FormatError("a payload ends early")
         return 0
 
-    def _normalise(self):
+    def _normalise(self) -> None:
         if self.range < 1 << 32:
             self.range = self.range << 32
             self.code &= MASK32
             for _ in range(4):
                 self.code = self.code << 8 | self._byte()
 
-    def finish(self):
+    def finish(self) -> None:
         require(self.position == len(self.data), "a payload goes on after its end")
 
-    def part(self, total):
+    def part(self, total: int) -> int:
         """A part of width 1 of a whole."""
         step = self.range // total
         value = min(self.code // step, total - 1)
@@ -75,7 +77,7 @@ class RangeDecoder:
         self._normalise()
         return value
 
-    def symbol(self, model):
+    def symbol(self, model: AdaptiveSymbol) -> int:
         step = self.range // model.total
         value = min(self.code // step, model.total - 1)
         start = 0
@@ -89,7 +91,7 @@ class RangeDecoder:
         model.learn(symbol)
         return symbol
 
-    def bit(self, probability):
+    def bit(self, probability: int) -> int:
         bound = (self.range >> 16) * probability
         if self.code < bound:
             self.range = bound
@@ -101,21 +103,21 @@ class RangeDecoder:
         self._normalise()
         return bit
 
-    def raw(self, bits):
+    def raw(self, bits: int) -> int:
         self.range >>= bits
         value = min(self.code // self.range, (1 << bits) - 1)
         self.code -= self.range * value
         self._normalise()
         return value
 
-    def wide(self, bits):
+    def wide(self, bits: int) -> int:
         value = 0
         while bits > 24:
             bits -= 24
             value |= self.raw(24) << bits
         return value | self.raw(bits)
 
-    def uniform(self, last):
+    def uniform(self, last: int) -> int:
         if last == 0:
             return 0
         if last < 1 << 16:
@@ -127,7 +129,7 @@ class RangeDecoder:
             return upper << shift | self.wide(shift)
         return (upper << shift) + self.uniform(last & ((1 << shift) - 1))
 
-    def adaptive(self, model):
+    def adaptive(self, model: AdaptiveBit) -> int:
         bit = self.bit(model.probability)
         rate = 655360 // (10 * model.age + 16)
         if bit:

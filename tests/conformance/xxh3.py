@@ -1,5 +1,7 @@
 """XXH3 of 64 bits with seed 0, as the xxHash specification describes it."""
 
+from __future__ import annotations
+
 import struct
 
 _SECRET = bytes.fromhex(
@@ -15,34 +17,34 @@ _P64_1, _P64_2, _P64_3 = 0x9E3779B185EBCA87, 0xC2B2AE3D27D4EB4F, 0x165667B19E377
 _P64_4, _P64_5 = 0x85EBCA77C2B2AE63, 0x27D4EB2F165667C5
 
 
-def _u32(data, at):
+def _u32(data: bytes, at: int) -> int:
     return int.from_bytes(data[at : at + 4], "little")
 
 
-def _u64(data, at):
+def _u64(data: bytes, at: int) -> int:
     return int.from_bytes(data[at : at + 8], "little")
 
 
-def _rotate(value, bits):
+def _rotate(value: int, bits: int) -> int:
     return (value << bits | value >> (64 - bits)) & _MASK
 
 
-def _swap(value):
+def _swap(value: int) -> int:
     return int.from_bytes(value.to_bytes(8, "little"), "big")
 
 
-def _fold(a, b):
+def _fold(a: int, b: int) -> int:
     product = a * b
     return (product & _MASK) ^ (product >> 64)
 
 
-def _avalanche(h):
+def _avalanche(h: int) -> int:
     h ^= h >> 37
     h = h * 0x165667919E3779F9 & _MASK
     return h ^ h >> 32
 
 
-def _avalanche64(h):
+def _avalanche64(h: int) -> int:
     h ^= h >> 33
     h = h * _P64_2 & _MASK
     h ^= h >> 29
@@ -50,11 +52,11 @@ def _avalanche64(h):
     return h ^ h >> 32
 
 
-def _mix(data, at, secret):
+def _mix(data: bytes, at: int, secret: int) -> int:
     return _fold(_u64(data, at) ^ _u64(_SECRET, secret), _u64(data, at + 8) ^ _u64(_SECRET, secret + 8))
 
 
-def _short(data):
+def _short(data: bytes) -> int:
     n = len(data)
     if n == 0:
         return _avalanche64(_u64(_SECRET, 56) ^ _u64(_SECRET, 64))
@@ -74,7 +76,7 @@ def _short(data):
     return _avalanche((n + _swap(low) + high + _fold(low, high)) & _MASK)
 
 
-def _middle(data):
+def _middle(data: bytes) -> int:
     n = len(data)
     h = n * _P64_1
     if n <= 128:
@@ -89,7 +91,7 @@ def _middle(data):
     return _avalanche((h + _mix(data, n - 16, 136 - 17)) & _MASK)
 
 
-def _accumulate(lanes, data, at, keys):
+def _accumulate(lanes: list[int], data: bytes, at: int, keys: tuple[int, ...]) -> None:
     words = struct.unpack_from("<8Q", data, at)
     for i in range(8):
         key = words[i] ^ keys[i]
@@ -97,7 +99,7 @@ def _accumulate(lanes, data, at, keys):
         lanes[i] += (key & _MASK32) * (key >> 32)
 
 
-def _long(data):
+def _long(data: bytes) -> int:
     n = len(data)
     lanes = [_P32_3, _P64_1, _P64_2, _P64_3, _P64_4, _P32_2, _P64_5, _P32_1]
     keys = [struct.unpack_from("<8Q", _SECRET, 8 * i) for i in range(17)]
@@ -119,18 +121,18 @@ def _long(data):
     return _avalanche(h & _MASK)
 
 
-def xxh3(data):
+def xxh3(data: bytes) -> int:
     data = bytes(data)
     if len(data) <= 16:
         return _short(data)
     return _middle(data) if len(data) <= 240 else _long(data)
 
 
-def checksum_width(size):
+def checksum_width(size: int) -> int:
     return 4 if size < 65536 else 8
 
 
-def checksum(data, size=None):
+def checksum(data: bytes, size: int | None = None) -> int:
     """The checksum(size) of section 1."""
     width = checksum_width(len(data) if size is None else size)
     return xxh3(data) & ((1 << 8 * width) - 1)

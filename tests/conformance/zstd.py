@@ -1,5 +1,7 @@
 """Zstandard frames (RFC 8878), by the system's libzstd."""
 
+from __future__ import annotations
+
 import ctypes
 import ctypes.util
 
@@ -14,7 +16,7 @@ _library.ZSTD_findFrameCompressedSize.restype = ctypes.c_size_t
 _library.ZSTD_findFrameCompressedSize.argtypes = [ctypes.c_void_p, ctypes.c_size_t]
 
 
-def one_frame(frame, size):
+def one_frame(frame: bytes, size: int) -> bytes:
     """The `size` bytes that one whole frame gives."""
     compressed = _library.ZSTD_findFrameCompressedSize(bytes(frame), len(frame))
     require(compressed == len(frame), "not one zstd frame")
@@ -24,7 +26,7 @@ def one_frame(frame, size):
     return out.raw[:size]
 
 
-def any_frame(frame, most=1 << 26):
+def any_frame(frame: bytes, most: int = 1 << 26) -> bytes:
     """What one whole frame gives, at most `most` bytes."""
     compressed = _library.ZSTD_findFrameCompressedSize(bytes(frame), len(frame))
     require(compressed == len(frame), "not one zstd frame")
