@@ -7,7 +7,10 @@ from __future__ import annotations
 
 import struct
 
+from arrays import ArrayPayload, Layer
 from container import File
+from elementary import require
+from mesh_cells import centres, decode_cells
 from tiles import DecodedTile, values_as_bytes
 from xxh3 import xxh3
 
@@ -107,9 +110,33 @@ class Content:
                 row.text(array.name)
                 row.values(array, values)
         if last:
-            self._add_cells(row)
+            self._add_cells(row, points)
 
-    def _add_cells(self, row: Row) -> None:
-        if self.head.mesh:
-            raise NotImplementedError("cells of a mesh")
-        row.numbers([0, 0, 0])
+    def _add_cells(self, row: Row, points: list) -> None:
+        """The cells of all blocks: vertex cells, then lines, then faces; then arrays beside them."""
+        sorts: list[list[list[int]]] = [[], [], []]
+        arrays = self.head.mesh.arrays if self.head.mesh else []
+        values: list[list[list]] = [[[], [], []] for _ in arrays]
+        starts = [0]
+        for tile in self.file.tiles:
+            starts.append(starts[-1] + tile.points)
+        for block in self.file.mesh_blocks:
+            first = starts[block.first_tile]
+            own = points[first : starts[block.first_tile + block.tiles]]
+            cells = decode_cells(block.cells, own, self.head.grid)
+            require([len(c) for c in cells] == block.counts, "a block has other cells than it says")
+            for all_of_sort, new in zip(sorts, cells):
+                all_of_sort += [[first + i for i in cell] for cell in new]
+            layer = Layer(centres(own, [c for new in cells for c in new]), 0, None)
+            for a, (array, payload) in enumerate(zip(arrays, block.values)):
+                tuples = ArrayPayload(layer, array.scalar_type, array.components).decode(payload, [])
+                for sort, new in enumerate(cells):
+                    values[a][sort] += tuples[: len(new)]
+                    tuples = tuples[len(new) :]
+        for cells_of_sort in sorts:
+            row.number(len(cells_of_sort))
+            for cell in cells_of_sort:
+                row.numbers([len(cell), *cell])
+        for array, of_sorts in zip(arrays, values):
+            row.description(array)
+            row.values(array, of_sorts[0] + of_sorts[1] + of_sorts[2])

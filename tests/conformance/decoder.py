@@ -4,7 +4,7 @@
 
 prints what each file holds as JSON, with the hash of its decoded content (see
 Testing/Data/conformance/README.md), or the kind of error that it is refused with. Of methods
-predictive and surface, and of cells of meshes, only the structure is read.
+predictive and surface only the structure is read.
 """
 
 from __future__ import annotations

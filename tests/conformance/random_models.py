@@ -6,6 +6,8 @@ import math
 import random
 import struct
 
+import random_meshes
+
 PLY_TYPES = {
     "char": ("b", -128, 127),
     "uchar": ("B", 0, 255),
@@ -89,7 +91,7 @@ def _normals(rng: random.Random, points: list[Point]) -> list[list[float]]:
     return [list(c) for c in zip(*rows)]
 
 
-def ply(rng: random.Random, points: list[Point]) -> tuple[bytes, list[str]]:
+def ply(rng: random.Random, points: list[Point], faces: list) -> tuple[bytes, list[str]]:
     """A binary PLY file, and the names of its arrays of floats."""
     coordinate = rng.choice(("float", "double", "float", "int"))
     if coordinate == "int":
@@ -111,8 +113,12 @@ def ply(rng: random.Random, points: list[Point]) -> tuple[bytes, list[str]]:
         columns += [(n, "uchar", _column(rng, points, "uchar")) for n in ("red", "green", "blue")]
     header = ["ply", "format binary_little_endian 1.0", f"element vertex {len(points)}"]
     header += [f"property {kind} {name}" for name, kind, _ in columns]
+    if faces:
+        header += random_meshes.ply_header(faces)
     row = struct.Struct("<" + "".join(PLY_TYPES[kind][0] for _, kind, _ in columns))
     body = b"".join(row.pack(*values) for values in zip(*(c for _, _, c in columns)))
+    if faces:
+        body += random_meshes.ply_body(faces)
     return ("\n".join(header) + "\nend_header\n").encode() + body, floats
 
 
@@ -133,7 +139,10 @@ def model(seed: int) -> tuple[bytes, list[str]]:
     method = rng.choice(METHODS)
     many = {"bsp": (300,), "fast": (600, 3000, 4096, 9000)}.get(method, (600, 1500, 5000))
     n = rng.choice((1, 2, 5, 40, 41, 150, rng.choice(many)))
-    data, floats = ply(rng, _shape(rng, n))
+    points, faces = _shape(rng, n), []
+    if rng.randrange(4) == 0:
+        points, faces = random_meshes.mesh(rng)
+    data, floats = ply(rng, points, faces)
     options = ["--method", method]
     if method == "fast":
         options = ["--effort", str(rng.randrange(1, 5))]

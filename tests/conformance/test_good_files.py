@@ -57,7 +57,7 @@ class GoodFiles(unittest.TestCase):
                     # Its structure is checked all the same.
                     file = File(data)
                     methods = {METHODS[t.method] for t in file.tiles}
-                    self.assertTrue(methods & {"predictive", "surface"} or file.head.mesh)
+                    self.assertTrue(methods & {"predictive", "surface"})
 
     def test_second_decoder_reads_the_example_of_the_specification(self):
         with open(os.path.join(SET, "../../../docs/format.md"), encoding="utf-8") as lines:

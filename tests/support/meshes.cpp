@@ -365,6 +365,8 @@ std::vector<Mesh> oddMeshes() {
   meshes.push_back(
       withFaces("an edge of four faces", line(6), {{0, 1, 2}, {0, 1, 3}, {1, 0, 4}, {1, 0, 5}}));
   meshes.push_back(withFaces("bow tie", line(5), {{0, 1, 2}, {2, 3, 4}}));
+  meshes.push_back(withFaces("a triangle that hangs on three others by its vertices", line(60),
+                             {{0, 1, 2}, {20, 21, 22}, {40, 41, 42}, {0, 20, 40}}));
   meshes.push_back(withFaces("faces of all sizes", line(20),
                              {{},
                               {3},

@@ -132,7 +132,11 @@ class MeshEncoder {
     if (head.faces && surface_ != nullptr) {
       encodeAroundSurface();
     } else if (head.faces) {
-      encodeFaces();
+      PreparedFaces prepared = prepare();
+      while (!encodeFaces(prepared)) {
+        coder_ = SymbolWriter();
+        head.code(coder_);
+      }
     }
     if (head.lines > 0) encodeLines();
     if (head.vertices > 0) encodeVertices();
@@ -161,8 +165,9 @@ class MeshEncoder {
     return preparedWelded;
   }
 
-  void encodeFaces() {
-    PreparedFaces prepared = prepare();
+  /// False if the front did not reach all regular faces: those that it did not are irregular then,
+  /// and everything has to be coded anew.
+  bool encodeFaces(PreparedFaces& prepared) {
     sortIrregular(prepared);
     FacesHead head;
     head.regular = prepared.regular.size();
@@ -184,8 +189,13 @@ class MeshEncoder {
     for (const std::uint32_t i : prepared.irregular) irregular.add(prepared.faces[i]);
     FacesSection<SymbolWriter, FaceTruth> section(coder_, head, positions);
     section.codeVertices(truth, irregular, [](std::size_t) {});
+    if (truth.order().size() < prepared.regular.size()) {
+      keepRegular(prepared, truth.order());
+      return false;
+    }
     if (welding_) encodeCorners(section.front(), prepared, truth);
     finishFaces(prepared, truth);
+    return true;
   }
 
   /// What a decoder does not know of the faces from its points on.

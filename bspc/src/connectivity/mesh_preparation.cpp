@@ -149,4 +149,14 @@ PreparedFaces prepareFaces(const Cells& faces) {
   return prepared;
 }
 
+void keepRegular(PreparedFaces& faces, std::vector<std::uint32_t> reached) {
+  std::sort(reached.begin(), reached.end());
+  std::vector<std::uint32_t> regular;
+  for (const std::uint32_t i : faces.regular) {
+    const bool isReached = std::binary_search(reached.begin(), reached.end(), i);
+    (isReached ? regular : faces.irregular).push_back(i);
+  }
+  faces.regular = std::move(regular);
+}
+
 }  // namespace bspc::connectivity

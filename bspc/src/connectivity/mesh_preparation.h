@@ -23,4 +23,9 @@ struct PreparedFaces {
 
 PreparedFaces prepareFaces(const Cells& faces);
 
+/// Makes regular faces irregular but those that were reached. Parts of a surface that hang on
+/// others by vertices alone are not reached if each of these has faces by the time that a part
+/// could begin at it.
+void keepRegular(PreparedFaces& faces, std::vector<std::uint32_t> reached);
+
 }  // namespace bspc::connectivity
