@@ -2,6 +2,7 @@
 
 #include <numeric>
 #include <random>
+#include <string>
 
 #include "attributes/array_coder.h"
 #include "attributes/array_samples.h"
@@ -117,6 +118,22 @@ TEST(ArrayDamage, TheOrderOfTheInputIsAskedFor) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::Corrupt);
+  }
+}
+
+TEST(ArrayDamage, PlacesOfExceptionsTakeNoMoreMemoryThanTheyMay) {
+  const std::vector<GridPoint> points = test::scannedSphere(25, 20, 2000);
+  const ArrayShape normals{ScalarType::Float32, 3, Semantic::Normals};
+  // Method Sphere of size 100 with one exception, whose place is said to take 2^25 equal bytes.
+  const Bytes payload{8, 100, 1, 0x80, 0x80, 0x80, 0x10, 0, 0};
+  TilePoints tile(points);
+  ArrayValues values;
+  try {
+    decodeArray(normals, payload, tile, kLimit, values);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::Corrupt);
+    EXPECT_NE(std::string(error.what()).find("too many bytes"), std::string::npos);
   }
 }
 

@@ -26,8 +26,11 @@ ExceptionList ExceptionList::read(container::ByteReader& in, std::uint64_t end, 
   const std::uint64_t count = in.varint();
   if (count > end) in.fail("there are more exceptions than numbers");
   if (count == 0) return result;
+  constexpr std::uint64_t kLongestGap = 10;  // bytes
+  const std::uint64_t gapBytes = in.varint();
+  if (gapBytes / kLongestGap > count) in.fail("the places of exceptions take too many bytes");
   PlaneReader rows;
-  const Bytes packed = rows.readClaimed(in, in.varint(), budget);
+  const Bytes packed = rows.readClaimed(in, gapBytes, budget);
   container::ByteReader gaps(packed, "the places of exceptions", container::ByteReader::kNoOffset);
   budget.take(count, sizeof(std::uint64_t) + size);
   std::uint64_t next = 0;
