@@ -209,5 +209,17 @@ def mesh_rules(good: bytes) -> Iterator[BadFile]:
     cases.set("a Mesh block that goes on", mesh_blocks=[block + b"\0"])
     cases.set("a Mesh block that ends early", mesh_blocks=[block[:-1]])
     cases.set("a Mesh block without a mesh", flags=draft.flags & ~64)
+    # Raw bits of a fresh range coder stream stand in it as they are: the version, two numbers of
+    # length 0, no lines and no vertex cells, "faces", "order kept", then numbers of faces and flags.
+    for what, start, kind in (
+        ("cells of an unknown version", "20", UNSUPPORTED),
+        ("cells of version 1 over a tile without faces", "10002080", CORRUPT),
+        ("cells that are fewer than the block says", "00000080", CORRUPT),
+        ("faces without neighbours", "0000200000000080", CORRUPT),
+        ("vertex cells that are not one for each point", "00300480", CORRUPT),
+    ):
+        cells = bytes.fromhex(start).ljust(8, b"\0")
+        changed = block[:5] + varint(len(cells)) + cells
+        cases.set(f"mesh: {what}", kind, mesh_blocks=[changed])
     yield from cases.files
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import struct
 
 from arrays import ArrayPayload, Layer
-from container import File
+from container import METHODS, File
 from elementary import require
 from mesh_cells import centres, decode_cells
 from tiles import DecodedTile, values_as_bytes
@@ -123,7 +123,9 @@ class Content:
         for block in self.file.mesh_blocks:
             first = starts[block.first_tile]
             own = points[first : starts[block.first_tile + block.tiles]]
-            cells = decode_cells(block.cells, own, self.head.grid)
+            tiles = self.file.tiles[block.first_tile : block.first_tile + block.tiles]
+            surface = len(tiles) == 1 and METHODS[tiles[0].method] == "surface"
+            cells = decode_cells(block.cells, own, self.head.grid, surface)
             require([len(c) for c in cells] == block.counts, "a block has other cells than it says")
             for all_of_sort, new in zip(sorts, cells):
                 all_of_sort += [[first + i for i in cell] for cell in new]

@@ -237,15 +237,18 @@ def _vertex_cells(coder: RangeDecoder, count: int, points: int) -> Cells:
     return cells
 
 
-def decode_cells(payload: bytes, points: list[Point], grid: Grid) -> tuple[Cells, Cells, Cells]:
-    """Vertex cells, lines and faces over the points of a block."""
+def decode_cells(
+    payload: bytes, points: list[Point], grid: Grid, surface: bool
+) -> tuple[Cells, Cells, Cells]:
+    """Vertex cells, lines and faces over the points of a block, which may be of method surface."""
     coder = RangeDecoder(payload)
     version = coder.raw(4)
     require(version <= 1, "an unknown version of the cells of a mesh", "unsupported")
-    if version == 1:
-        raise NotImplementedError("faces of method surface")
     vertex_count, line_count = number(coder), number(coder)
     has_faces, keeps_order = coder.raw(1), coder.raw(1)
+    if version == 1 and has_faces:
+        require(surface, "the faces are those of no surface")
+        raise NotImplementedError("faces of method surface")
     places = places_of(points, grid)
     faces: Cells = []
     if has_faces:
