@@ -10,6 +10,7 @@ build_packages=(
 lint_packages=(clang-format clang-tidy)
 compiler_packages=(clang)
 peer_packages=(libdraco-dev draco)
+plot_packages=(python3-matplotlib)
 # dpkg-dev finds out what a package depends on; the last three render without a screen.
 vtk_packages=(libvtk9-dev python3-vtk9 python3-numpy dpkg-dev xvfb xauth libgl1-mesa-dri)
 openmesh_packages=(libopenmesh-dev)
@@ -24,7 +25,8 @@ paraview_python_folder=build/paraview-python
 
 usage() {
   cat <<'END'
-Usage: scripts/setup.sh [--lint] [--vtk] [--openmesh] [--compilers] [--peers] [--for-download PACKAGE]
+Usage: scripts/setup.sh [--lint] [--vtk] [--openmesh] [--paraview] [--compilers] [--peers] [--plots]
+                        [--for-download PACKAGE]
 
 Installs the Debian 12 packages that building and testing bspc needs; does nothing where they are
 installed. Needs root or sudo only if something is missing.
@@ -36,6 +38,7 @@ installed. Needs root or sudo only if something is missing.
                           into build/paraview-python
   --compilers             also clang, for scripts/compilers.sh
   --peers                 also the coders that benchmarks/peers compares bspc with
+  --plots                 also Matplotlib, for the plots of benchmarks
   --for-download PACKAGE  also make sure that apt-get knows PACKAGE, without installing it
 END
 }
@@ -59,6 +62,7 @@ while (($# > 0)); do
     --openmesh) wanted+=("${openmesh_packages[@]}") ;;
     --compilers) wanted+=("${compiler_packages[@]}") ;;
     --peers) wanted+=("${peer_packages[@]}") ;;
+    --plots) wanted+=("${plot_packages[@]}") ;;
     --for-download)
       (($# > 1)) || die "--for-download needs the name of a package"
       to_download=$2

@@ -14,14 +14,10 @@
 #include <draco/point_cloud/point_cloud.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
-#include <ctime>
 #include <exception>
-#include <fstream>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -30,15 +26,12 @@
 #include <utility>
 #include <vector>
 
+#include "benchmark_support.h"
 #include "bspc/decoder.h"
 #include "bspc/encoder.h"
-#include "formats/model_io.h"
 
 namespace bspc {
 namespace {
-
-/// Three whole numbers a point.
-using Coordinates = std::vector<std::int32_t>;
 
 struct Coder {
   std::string name;
@@ -131,49 +124,11 @@ std::vector<Coder> codersNamed(const std::vector<std::string>& wanted) {
   return coders;
 }
 
-/// The model's points as steps of the lattice that they lie on.
-Coordinates readOnLattice(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error("cannot be opened");
-  const formats::Model model = formats::readModel(file, formats::Format::Ply);
-  const GridFit fit = fitGrid(model.view(), GridRequest::automatic());
-  if (!fit.exact || fit.points.empty()) throw std::runtime_error("lies on no lattice");
-  Coordinates xyz;
-  xyz.reserve(3 * fit.points.size());
-  for (const GridPoint& point : fit.points) {
-    for (const std::uint32_t index : point) {
-      if (index > INT32_MAX) throw std::runtime_error("takes more than 31 bits along an axis");
-      xyz.push_back(static_cast<std::int32_t>(index));
-    }
-  }
-  return xyz;
-}
-
-std::vector<std::array<std::int32_t, 3>> sortedPoints(const Coordinates& xyz) {
-  std::vector<std::array<std::int32_t, 3>> points(xyz.size() / 3);
-  std::memcpy(points.data(), xyz.data(), xyz.size() * sizeof(xyz[0]));
-  std::sort(points.begin(), points.end());
-  return points;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 struct Measurement {
   std::size_t bytes = 0;
   std::vector<double> encodeSeconds;
   std::vector<double> decodeSeconds;
 };
-
-template <class Call>
-double secondsOf(const Call& call) {
-  const std::clock_t start = std::clock();
-  call();
-  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-}
 
 /// One run of a coder; the first checks what comes back.
 void runOnce(const Coder& coder, const Coordinates& xyz, Measurement& result) {
@@ -200,7 +155,7 @@ void compare(const std::string& path, const std::vector<Coder>& coders, int repe
   for (int i = 0; i < repetitions; ++i) {
     for (std::size_t c = 0; c < coders.size(); ++c) runOnce(coders[c], xyz, results[c]);
   }
-  const std::string name = path.substr(path.rfind('/') + 1);
+  const std::string name = modelName(path);
   for (std::size_t c = 0; c < coders.size(); ++c) {
     const Measurement& result = results[c];
     const double encodeSeconds = median(result.encodeSeconds);

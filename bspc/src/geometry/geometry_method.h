@@ -13,6 +13,10 @@
 
 namespace bspc::geometry {
 
+namespace predictive {
+struct Features;
+}
+
 /// Called with the number of points that are done; throws to stop.
 using PointProgress = std::function<void(std::uint64_t donePoints)>;
 
@@ -29,6 +33,8 @@ struct CodingWishes {
   std::optional<unsigned> stopLevel;  ///< lossy: cells of this level stay undivided
   /// Faces over the points of the tile, an oriented surface: what method surface goes along.
   const Cells* faces = nullptr;
+  /// Of method predictive: other features than the effort's, to measure what each is worth.
+  const predictive::Features* features = nullptr;
 };
 
 /// A tile to be coded: its points, in grid steps from the lower corner of its tight box.
