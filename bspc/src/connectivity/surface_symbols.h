@@ -36,7 +36,7 @@ enum class CornerQuestion : std::uint8_t { Border, New, Right, Left };
 class SurfaceSymbols {
  public:
   SurfaceSymbols()
-      : mixer_({kSlots * 10, kSlots * 100, kSlots * 25}, kSlots, kInputs, kWeight, kRate,
+      : mixer_({kSlots * 10, kSlots * 100, kSlots * 25}, {kSlots}, kInputs, kWeight, kRate,
                kCounterAge),
         counters_(std::size_t{kContexts} << kTableBits) {}
 
@@ -66,7 +66,7 @@ class SurfaceSymbols {
     return mixer_.code(
         coder, bit, evidence_,
         {slot * 10 + c.from, (slot * 10 + c.from) * 10 + c.to, slot * 25 + c.last * 5 + c.before},
-        slot);
+        {slot});
   }
 
  private:

@@ -144,30 +144,39 @@ class LogisticMixer {
 };
 
 /// The same in two layers: each selected set makes a logit of its own and learns from its own
-/// error; a second, small set of weights mixes these. Two sets more are copies of the first and of
+/// error; small sets of weights, `Finals` of which are selected, mix these, and the mean of the
+/// mixtures is what counts. Two sets more are copies of the first and of
 /// the last one that learn at a fifth and at three times the rate. Slower than LogisticMixer, and
 /// better where little was seen.
-template <unsigned Selectors>
+template <unsigned Selectors, unsigned Finals = 1>
 class LayeredMixer {
  public:
   using Selection = std::array<unsigned, Selectors>;
 
-  LayeredMixer(const Selection& sets, unsigned finalSets, unsigned inputs, float weight,
-               const MixingRate& rate, unsigned counterAge)
-      : rate_(rate), counterAge_(counterAge), final_(finalSets, kSets, 1.0F / kSets) {
+  using FinalSelection = std::array<unsigned, Finals>;
+  /// How fast the weights of the second layer learn.
+  static constexpr MixingRate kFinalRate{0.015F, 10, 0.001F};
+
+  LayeredMixer(const Selection& sets, const FinalSelection& finalSets, unsigned inputs,
+               float weight, const MixingRate& rate, unsigned counterAge,
+               const MixingRate& finalRate = kFinalRate)
+      : rate_(rate), finalRate_(finalRate), counterAge_(counterAge) {
+    final_.reserve(Finals);
+    for (const unsigned count : finalSets) final_.emplace_back(count, kSets, 1.0F / kSets);
     sets_.reserve(kSets);
     for (unsigned i = 0; i < kSets; ++i) sets_.emplace_back(sets[selectorOf(i)], inputs, weight);
   }
 
-  /// Codes one decision; `finalSet` selects the weights of the second layer.
+  /// Codes one decision; `finalSets` select the weights of the second layer.
   template <class Coder>
   bool code(Coder& coder, bool bit, Evidence& evidence, const Selection& selected,
-            unsigned finalSet) {
+            const FinalSelection& finalSets) {
     const unsigned count = evidence.pad();
     std::array<float*, kSets> weights{};
     std::array<float, kSets> logit{};
-    float* final = final_.weights(finalSet);
-    float mixed = 0;
+    std::array<float*, Finals> final{};
+    for (unsigned f = 0; f < Finals; ++f) final[f] = final_[f].weights(finalSets[f]);
+    std::array<float, Finals> mixed{};
     for (unsigned i = 0; i < kSets; ++i) {
       weights[i] = sets_[i].weights(selected[selectorOf(i)]);
       Lanes dot = Lanes(0);
@@ -175,15 +184,20 @@ class LayeredMixer {
         dot += load(weights[i] + j) * load(evidence.inputs() + j);
       }
       logit[i] = clamped(sum(dot), -11, 11);
-      mixed += final[i] * logit[i];
+      for (unsigned f = 0; f < Finals; ++f) mixed[f] += final[f][i] * logit[i];
     }
-    const float probability = squash(clamped(mixed, -11, 11));
+    float mean = 0;
+    for (const float logitOfSet : mixed) mean += logitOfSet;
+    const float probability = squash(clamped(mean * (1.0F / Finals), -11, 11));
     bit = coder.fixedBit(static_cast<std::uint32_t>(clamped(probability * 65536, 4, 65532)), bit);
     const float target = bit ? 1.0F : 0.0F;
-    const float finalStep = final_.rate(finalSet, kFinalRate) * (target - probability);
-    final_.count(finalSet);
+    for (unsigned f = 0; f < Finals; ++f) {
+      const float error = target - squash(clamped(mixed[f], -11, 11));
+      const float step = final_[f].rate(finalSets[f], finalRate_) * error;
+      final_[f].count(finalSets[f]);
+      for (unsigned i = 0; i < kSets; ++i) final[f][i] += step * logit[i];
+    }
     for (unsigned i = 0; i < kSets; ++i) {
-      final[i] += finalStep * logit[i];
       const unsigned set = selected[selectorOf(i)];
       const float step = sets_[i].rate(set, rate_) * kPace[i < Selectors ? 0 : i - Selectors + 1] *
                          (target - squash(logit[i]));
@@ -200,16 +214,16 @@ class LayeredMixer {
  private:
   static constexpr unsigned kSets = Selectors + 2;
   static constexpr std::array<float, 3> kPace{1, 0.2F, 3};
-  static constexpr MixingRate kFinalRate{0.015F, 10, 0.001F};
 
   static constexpr unsigned selectorOf(unsigned set) {
     return set < Selectors ? set : set == Selectors ? 0 : Selectors - 1;
   }
 
   MixingRate rate_;
+  MixingRate finalRate_;
   unsigned counterAge_;
   std::vector<WeightSets> sets_;
-  WeightSets final_;
+  std::vector<WeightSets> final_;
 };
 
 }  // namespace BSPC_LANE_SET

@@ -177,6 +177,7 @@ class DecisionModel {
   static constexpr float kWeight = 0.12F;
   static constexpr float kLayeredWeight = 0.09F;
   static constexpr float kLayeredCountWeight = 0.2F;
+  static constexpr entropy::MixingRate kFinalRate{0.015F, 10, 0.003F};
   static constexpr unsigned kCounterAge = 60;
   static constexpr unsigned kSideSets = 2 * kSideKinds * kSizes * 3;
   static constexpr unsigned kSidesPerPhase = kSideKinds * kMasses * kErrors;
@@ -191,22 +192,25 @@ class DecisionModel {
       kWeight,
       {},
       kCounterAge};
-  entropy::LayeredMixer<4> layeredMixer_{
+  entropy::LayeredMixer<6, 2> layeredMixer_{
       {kSideSets + kSideKinds * 3 * kPhaseOpens, 2 * kSideKinds* kDistances,
-       kSideKinds* kMasses* kOpens, kSidesPerPhase + kSideKinds},
-      2 * kSideKinds,
+       kSideKinds* kMasses* kOpens, kSideKinds* kCoarse* kCoarse, 2 * kSideKinds* kLogits,
+       kSidesPerPhase + kSideKinds},
+      {2 * kSideKinds, 2 * kSideKinds* kErrors * 3},
       kInputs,
       kLayeredWeight,
       {0.04F, 200, 0.007F},
-      kCounterAge};
+      kCounterAge,
+      kFinalRate};
   entropy::LogisticMixer<2> countMixer_{{2 * kCounts, kCounts}, kInputs, kWeight, {}, kCounterAge};
-  entropy::LayeredMixer<4> layeredCountMixer_{
+  entropy::LayeredMixer<4, 2> layeredCountMixer_{
       {2 * kCounts, kCounts* kSizes, kCounts* kDoubts* kBalances, kCounts * 2 * 3},
-      kCounts,
+      {kCounts, 2},
       kInputs,
       kLayeredCountWeight,
       {0.05F, 200, 0.005F},
-      kCounterAge};
+      kCounterAge,
+      kFinalRate};
   entropy::LogisticMixer<2> shareMixer_{
       {kBisections, kBisections}, kInputs, kWeight, {}, kCounterAge};
 };
@@ -243,8 +247,11 @@ bool DecisionModel::codeSide(Coder& coder, bool upper, SideKind kind, const Situ
   const unsigned nearest = std::min(s.lowerDistance, s.upperDistance);
   return layeredMixer_.code(
       coder, upper, e,
-      {first, about * kDistances + nearest, (kind * kMasses + s.mass) * kOpens + s.open, second},
-      about);
+      {first, about * kDistances + nearest, (kind * kMasses + s.mass) * kOpens + s.open,
+       (kind * kCoarse + s.candidate[Candidates::kExtrapolated]) * kCoarse +
+           s.candidate[Candidates::kParallelogram],
+       about * kLogits + s.surface, second},
+      {about, (about * kErrors + s.error) * 3 + q.axis});
 }
 
 inline void DecisionModel::addSideContexts(unsigned z, const Situation& s, const Question& q,
@@ -325,7 +332,8 @@ bool DecisionModel::codeMore(Coder& coder, bool more, std::uint32_t count, std::
   const unsigned about = 2 * t + (p.inCell ? 1 : 0);
   return layeredCountMixer_.code(
       coder, more, e,
-      {first, t * kSizes + s.size, tDoubt * kBalances + balance, about * 3 + q.axis}, t);
+      {first, t * kSizes + s.size, tDoubt * kBalances + balance, about * 3 + q.axis},
+      {t, p.inCell ? 1U : 0U});
 }
 
 /// The number of points in the upper half is spread around its mean.

@@ -189,9 +189,13 @@ inline void checkDepth(unsigned bits, std::uint32_t maxDepth) {
                                             ", more than the limit of " + std::to_string(maxDepth));
 }
 
+inline unsigned effortOf(const TileInput& tile) {
+  return std::clamp(tile.wishes.effort, kLeastEffort, kMostEffort);
+}
+
 /// With the structure that was found, or part of it.
-inline EncodedTile encodeWith(const TileStructure& structure, const TileInput& tile,
-                              unsigned effort, const PointProgress& progress) {
+inline EncodedTile encodeWith(const Features& features, const TileStructure& structure,
+                              const TileInput& tile, const PointProgress& progress) {
   EncodedTile result;
   SortedPoints points(tile, progress);
   const auto count = static_cast<std::uint32_t>(tile.points.size());
@@ -200,14 +204,13 @@ inline EncodedTile encodeWith(const TileStructure& structure, const TileInput& t
     std::iota(indices.begin(), indices.end(), 0U);
     return indices;
   };
-  const Features features = featuresOf(effort);
   using Encoding = TreeCoder<entropy::SymbolWriter, SortedPoints>;
   std::unique_ptr<Encoding> tree;
   for (unsigned layer = 0; layer < tile.layers; ++layer) {
     entropy::SymbolWriter coder;
     if (layer == 0) {
-      Features coded;
-      codeFeatures(coder, effort, coded);
+      Features coded = features;
+      codeFeatures(coder, tile.wishes.features == nullptr ? effortOf(tile) : kOwnFeatures, coded);
       // Too large for the stack of a thread.
       tree =
           std::make_unique<Encoding>(features, tile.extent, gridBits(tile.extent), count, points);
@@ -247,16 +250,17 @@ inline EncodedTile encode(const TileInput& tile, const PointProgress& progress) 
                 "has " +
                     std::to_string(tile.points.size()));
   }
-  const unsigned effort = std::clamp(tile.wishes.effort, kLeastEffort, kMostEffort);
+  const Features features =
+      tile.wishes.features == nullptr ? featuresOf(effortOf(tile)) : *tile.wishes.features;
   TileStructure structure =
-      findStructure(SortedPoints(tile, progress).all(), tile.extent, featuresOf(effort));
-  EncodedTile best = encodeWith(structure, tile, effort, progress);
+      findStructure(SortedPoints(tile, progress).all(), tile.extent, features);
+  EncodedTile best = encodeWith(features, structure, tile, progress);
   // Among few points many pairs look like mirrored ones by chance, and regular patterns mirror
   // themselves although they are told in fewer bits as patterns.
   constexpr std::size_t kFewPoints = 50000;
   if (structure.plane && tile.points.size() <= kFewPoints) {
     structure.plane.reset();
-    EncodedTile other = encodeWith(structure, tile, effort, progress);
+    EncodedTile other = encodeWith(features, structure, tile, progress);
     if (totalBytes(other) < totalBytes(best)) best = std::move(other);
   }
   return best;

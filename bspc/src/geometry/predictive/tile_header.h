@@ -9,11 +9,13 @@
 
 namespace bspc::geometry::predictive {
 
+/// What stands in the place of an effort where the features stand one by one.
+constexpr unsigned kOwnFeatures = 15;
+
 /// Codes what a tile is coded with, in front of its first layer: the number of an effort, or
 /// kOwnFeatures and the features one by one.
 template <class Coder>
 void codeFeatures(Coder& coder, unsigned effort, Features& features) {
-  constexpr unsigned kOwnFeatures = 15;
   effort = coder.raw(effort, 4);
   if (effort >= kLeastEffort && effort <= kMostEffort) {
     features = featuresOf(effort);

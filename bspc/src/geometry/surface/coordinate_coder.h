@@ -21,7 +21,7 @@ class CoordinateCoder {
   CoordinateCoder(Coder& coder, const GridPoint& extent)
       : coder_(coder),
         extent_(extent),
-        mixer_({kSteps, kSituations * 3, kWidths}, 3, kInputs, kWeight, kRate, kCounterAge),
+        mixer_({kSteps, kSituations * 3, kWidths}, {3}, kInputs, kWeight, kRate, kCounterAge),
         byWidth_(std::size_t{kSteps} * kWidths * kFractions),
         bySituation_(std::size_t{kSteps} * kSituations * kWidths),
         byExact_(std::size_t{kExact} * kStages * kRelations * VertexPrediction::kTrusts * 3) {}
@@ -135,7 +135,7 @@ class CoordinateCoder {
     evidence_.add(kBias);
     for (unsigned e = 0; e < kExact; ++e) evidence_.add(exactCounter(e, bound, stageOf(step)));
     bit = mixer_.code(coder_, bit, evidence_, {step, prediction_->situation * 3 + axis_, width_},
-                      axis_);
+                      {axis_});
     if (bit) {
       low_ = bound;
     } else {
