@@ -3,8 +3,8 @@
     python3 decoder.py FILE...
 
 prints what each file holds as JSON, with the hash of its decoded content (see
-Testing/Data/conformance/README.md), or the kind of error that it is refused with. Of methods
-predictive and surface only the structure is read.
+Testing/Data/conformance/README.md), or the kind of error that it is refused with. Of method
+surface only the structure is read, as of mirrors and range images of method predictive.
 """
 
 from __future__ import annotations

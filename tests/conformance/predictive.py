@@ -1,14 +1,15 @@
-"""The structure of method predictive, docs/format.md, section 13: what stands in front of its tree."""
+"""Method predictive of docs/format.md, section 13: its features, layers and sets."""
 
 from __future__ import annotations
 
 from elementary import require
+from predictive_tree import Point, Tree
 from range_coder import RangeDecoder
 
 FLAGS = (
     "quadric", "plane", "parallelograms", "projection", "separate kinds", "two scales",
     "axis values", "wide coordinates", "density", "nearest", "many contexts", "phases", "mirrors",
-    "range images", "two layers",
+    "range images", "two layers", "narrow quadric",
 )  # fmt: skip
 _LOWEST = {"quadric", "parallelograms", "projection", "axis values", "phases", "mirrors", "range images"}
 _SEVENTH = _LOWEST | {"separate kinds", "nearest", "many contexts"}
@@ -18,7 +19,7 @@ EFFORTS = {
     6: (_LOWEST, 10, 9, 1),
     7: (_SEVENTH, 13, 14, 1),
     8: (set(FLAGS), 14, 16, 1),
-    9: (set(FLAGS), 18, 16, 2),
+    9: (set(FLAGS), 16, 16, 2),
 }
 OWN = 15
 
@@ -26,10 +27,7 @@ OWN = 15
 class Features:
     """How a tile was coded, and the lattices of its axes."""
 
-    def __init__(self, payload: bytes, points: int, version: int):
-        require(version == 0, "unknown version of predictive", "unsupported")
-        require(points < 1 << 32, "too many points for method predictive")
-        coder = RangeDecoder(payload)
+    def __init__(self, coder: RangeDecoder):
         self.effort = coder.raw(4)
         self.cell_points = 6
         if self.effort == OWN:
@@ -48,3 +46,41 @@ class Features:
         self.lattices = [0, 0, 0]
         if "phases" in self.flags:
             self.lattices = [coder.wide(32) if coder.bit(2048) else 0 for _ in range(3)]
+
+
+class Predictive:
+    MOST_PLANES = 2
+
+    def __init__(self, points: int, extent: list[int], version: int):
+        require(version == 0, "unknown version of predictive", "unsupported")
+        require(points < 1 << 32, "too many points for method predictive")
+        self.n, self.extent = points, list(extent)
+        self.tree: Tree | None = None
+
+    def layer(self, payload: bytes, last: bool) -> tuple[list[Point], list[int]]:
+        coder = RangeDecoder(payload)
+        if self.tree is None:
+            self.features = Features(coder)
+            self.tree = Tree(self.features, self.extent, self.n)
+        if not last:
+            result = self.tree.coarse_layer(coder)
+            coder.finish()
+            return result
+        if self.tree.level == 0:
+            self._sets(coder)
+        else:
+            self.tree.final_layer(coder)
+        coder.finish()
+        return self.tree.points, [1] * len(self.tree.points)
+
+    def _sets(self, coder: RangeDecoder) -> None:
+        if "range images" in self.features.flags and self.n >= 4000 and coder.bit(2048):
+            raise NotImplementedError("range images of method predictive")
+        self._set(coder, self.n, self.MOST_PLANES)
+
+    def _set(self, coder: RangeDecoder, n: int, planes: int) -> None:
+        may_be_mirrored = "mirrors" in self.features.flags and planes > 0 and n >= 16
+        if may_be_mirrored and coder.bit(2048):
+            raise NotImplementedError("mirrors of method predictive")
+        self.tree.start(n)
+        self.tree.final_layer(coder)

@@ -18,7 +18,7 @@ PLY_TYPES = {
     "float": ("f", 0, 0),
     "double": ("d", 0, 0),
 }
-METHODS = ("kd", "fast", "fast", "fast", "octree", "gencode", "bsp")
+METHODS = ("kd", "fast", "fast", "fast", "octree", "gencode", "bsp", "predictive")
 Point = tuple[float, float, float]
 
 
@@ -139,13 +139,17 @@ def model(seed: int) -> tuple[bytes, list[str]]:
     method = rng.choice(METHODS)
     many = {"bsp": (300,), "fast": (600, 3000, 4096, 9000)}.get(method, (600, 1500, 5000))
     n = rng.choice((1, 2, 5, 40, 41, 150, rng.choice(many)))
+    if method == "predictive":  # takes the second decoder long
+        n = rng.choice((1, 2, 5, 15, 40))
     points, faces = _shape(rng, n), []
-    if rng.randrange(4) == 0:
+    if method != "predictive" and rng.randrange(4) == 0:
         points, faces = random_meshes.mesh(rng)
     data, floats = ply(rng, points, faces)
     options = ["--method", method]
     if method == "fast":
         options = ["--effort", str(rng.randrange(1, 5))]
+    if method == "predictive":
+        options = ["--effort", str(rng.randrange(5, 10))]
     options += _grid_options(rng, method)
     options += ["--layers", str(rng.choice((1, 1, 2, 3, 7)))]
     if rng.randrange(3) == 0:

@@ -1,4 +1,7 @@
-"""Both decoders read every good file of the conformance set, with the content that the set tells."""
+"""Both decoders read every good file of the conformance set, with the content that the set tells.
+
+The second one leaves out what takes it long unless CONFORMANCE_ALL is set.
+"""
 
 from __future__ import annotations
 
@@ -30,6 +33,11 @@ def contents_by_library(program: str, paths: list[str]) -> dict[str, list[str]]:
     return {p: line.split("\t")[1:] for p, line in zip(paths, run.stdout.splitlines())}
 
 
+def is_too_slow(file: File) -> bool:
+    """Whether the second decoder needs more than some seconds."""
+    return any(METHODS[t.method] == "predictive" and t.points > 50 for t in file.tiles)
+
+
 def read(path: str) -> bytes:
     with open(os.path.join(SET, path), "rb") as stream:
         return stream.read()
@@ -51,13 +59,13 @@ class GoodFiles(unittest.TestCase):
         for path, wanted in listed().items():
             with self.subTest(path):
                 data = read(path)
+                file = File(data)  # of every file at least the structure
+                if is_too_slow(file) and "CONFORMANCE_ALL" not in os.environ:
+                    continue
                 try:
                     self.assertEqual(Content(data).hash(), wanted)
                 except NotImplementedError:
-                    # Its structure is checked all the same.
-                    file = File(data)
-                    methods = {METHODS[t.method] for t in file.tiles}
-                    self.assertTrue(methods & {"predictive", "surface"})
+                    self.assertIn("surface", {METHODS[t.method] for t in file.tiles})
 
     def test_second_decoder_reads_the_example_of_the_specification(self):
         with open(os.path.join(SET, "../../../docs/format.md"), encoding="utf-8") as lines:

@@ -12,14 +12,13 @@ from fast import Fast
 from neighbours import Point
 from orders import decoded_order
 from partition_methods import Kd, Occupancy
-from predictive import Features
+from predictive import Predictive
 from words import WordType
 from xxh3 import checksum, xxh3
 
 
 def geometry_of(tile: Tile):
     """The decoder of a tile's geometry."""
-    first_layer = tile.lacking
     name = METHODS.get(tile.method)
     require(name is not None, f"unknown method {tile.method}", "unsupported")
     require(tile.points < 1 << 32, "too many points for a tile")
@@ -33,7 +32,7 @@ def geometry_of(tile: Tile):
     if name in ("octree", "gencode"):
         return Occupancy(*arguments, name == "octree")
     if name == "predictive":
-        Features(tile.chunks[first_layer, 0, 0], tile.points, tile.version)
+        return Predictive(*arguments)
     raise NotImplementedError(f"geometry of method {name}")
 
 

@@ -1,0 +1,252 @@
+"""Near points, and the candidates that they make, docs/format.md, section 13."""
+
+from __future__ import annotations
+
+from lanes import Row, bell, less, plus, row, scaled, shifted, squares, times, total
+from predictive_surface import Neighbourhood, Question, Surface
+from reals import Vector, bits_of, ln, real
+
+EXTRAPOLATED, PARALLELOGRAM, PROJECTED = range(3)
+
+
+def keys(x: Row, y: Row, z: Row, place: Vector) -> list[int]:
+    """Of each entry, the bits of its square distance with its index in the lowest seven."""
+    distances = squares(shifted(x, -place[0]), shifted(y, -place[1]), shifted(z, -place[2]))
+    return [bits_of(d) & ~127 | i for i, d in enumerate(distances)]
+
+
+class NearPoints:
+    MOST = 31
+
+    def __init__(self) -> None:
+        self.x, self.y, self.z = row(), row(), row()
+        self.known: list[int] = []
+
+    def gather(self, near: Neighbourhood, place: Vector, wanted: int) -> None:
+        self.x, self.y, self.z, self.known = row(), row(), row(), []
+        found = [k for k in keys(near.x, near.y, near.z, place) if near.known[k & 127] is not None]
+        for key in sorted(found)[:wanted]:
+            i = key & 127
+            self.add((near.x[i], near.y[i], near.z[i]), near.known[i])
+
+    def add(self, at: Vector, known: int) -> None:
+        self.x.append(at[0])
+        self.y.append(at[1])
+        self.z.append(at[2])
+        self.known.append(known)
+
+    def nearest_six(self, place: Vector) -> list[int]:
+        return [self.known[k & 127] for k in sorted(keys(self.x, self.y, self.z, place))[:6]]
+
+    def at(self, i: int) -> Vector:
+        return self.x[i], self.y[i], self.z[i]
+
+
+class Kernel:
+    def __init__(self, inverse_width: float):
+        self.scale = inverse_width
+        self.low: list[Row] = []
+        self.high: list[Row] = []
+        self.mass: list[Row] = []
+        self.at = row()
+
+
+class Group:
+    """Candidates of a kind for a box."""
+
+    MOST = 128
+
+    def __init__(self, scales: list[float]):
+        self.place = [row(), row(), row()]
+        self.weight = row()
+        self.kernels = [Kernel(s) for s in scales]
+
+    def add(self, at: Vector, weight: float) -> None:
+        if len(self.weight) < self.MOST:
+            for column, x in zip(self.place, at):
+                column.append(x)
+            self.weight.append(weight)
+
+    def spread(self, q: Question) -> None:
+        for kernel in self.kernels:
+            for k in range(3):
+                low = q.lower[k]
+                high = real(low + q.size[k])
+                at_low, at_high = self.bells(kernel, k, low), self.bells(kernel, k, high)
+                kernel.low.append(at_low)
+                kernel.high.append(at_high)
+                kernel.mass.append(shifted(less(at_high, at_low), real(1e-7)))
+
+    def bells(self, kernel: Kernel, axis: int, bound: float) -> Row:
+        return bell(scaled(row([bound - x for x in self.place[axis]]), kernel.scale))
+
+    def ask(self, kernel: Kernel, q: Question) -> tuple[float, float]:
+        """The masses in the lower and the upper half."""
+        k = q.axis
+        k1, k2 = (j for j in range(3) if j != k)
+        kernel.at = self.bells(kernel, k, q.middle)
+        across = times(times(kernel.mass[k1], kernel.mass[k2]), self.weight)
+        lower = total(times(across, less(kernel.at, kernel.low[k])))
+        return lower, total(times(across, less(kernel.high[k], kernel.at)))
+
+    def take(self, axis: int, upper: int) -> None:
+        for kernel in self.kernels:
+            if upper:
+                kernel.low[axis] = kernel.at
+            else:
+                kernel.high[axis] = kernel.at
+            mass = less(kernel.high[axis], kernel.low[axis])
+            kernel.mass[axis] = shifted(mass, real(1e-7))
+
+
+class Answer:
+    def __init__(self, lower: float = 0.0, upper: float = 0.0):
+        tiny = real(3e-3)
+        self.lower, self.upper = lower, upper
+        self.evidence = ln(real(real(upper + tiny) / real(lower + tiny)))
+
+
+def square_between(a: Vector, b: Vector) -> float:
+    dx, dy, dz = (real(a[k] - b[k]) for k in range(3))
+    return real(real(real(dx * dx) + real(dy * dy)) + real(dz * dz))
+
+
+class Candidates:
+    MOST = 640
+
+    def __init__(self, flags: set[str], pair_reach: int):
+        self.flags, self.pair_reach = flags, pair_reach
+        self.scales = 2 if "two scales" in flags else 1
+        self.listed: list[tuple[Vector, float, int]] = []  # place, weight, kind
+        self.pairs: dict[int, set[int]] = {}
+        self.groups = [Group([1.0] * self.scales) for _ in range(3)]
+        self.answers = [[Answer()] * self.scales for _ in range(3)]
+
+    def start_cell(self, near: NearPoints, side: float, spacing: float) -> None:
+        self.middle = real(0.5 * side)
+        self.reach = real(self.middle + real(real(0.3) * spacing))
+        self.pair_square = real(real(float(self.pair_reach) * spacing) * spacing)
+        self.minimum = real(real(real(0.09) * spacing) * spacing)
+        self.inverse_square = real(1.0 / real(spacing * spacing))
+        self.listed, self.pairs = [], {}
+        for t in range(len(near.known)):
+            self._propose_around(near, t)
+
+    def add_point(self, near: NearPoints) -> None:
+        t = len(near.known) - 1
+        at = near.at(t)
+        self.listed = [c for c in self.listed if square_between(c[0], at) >= self.minimum]
+        self._propose_around(near, t)
+
+    def _in_cell(self, at: Vector) -> bool:
+        return all(abs(real(x - self.middle)) <= self.reach for x in at)
+
+    def _propose(self, near: NearPoints, kind: int, at: Vector, square: float) -> None:
+        if len(self.listed) >= self.MOST:
+            return
+        distances = squares(shifted(near.x, -at[0]), shifted(near.y, -at[1]), shifted(near.z, -at[2]))
+        if any(d < self.minimum for d in distances):
+            return
+        drop = 10.0 if kind == EXTRAPOLATED else 3.0
+        weight = real(1.0 / real(1.0 + real(drop * real(square * self.inverse_square))))
+        self.listed.append((at, weight, kind))
+
+    def _propose_around(self, near: NearPoints, t: int) -> None:
+        here = near.at(t)
+        places = [near.at(j) for j in range(t)]
+        pairs = [j for j in range(t) if square_between(places[j], here) < self.pair_square]
+        self.pairs[t] = set(pairs)
+        for j in pairs:
+            self.pairs[j].add(t)
+
+        def beyond(a: Vector, b: Vector) -> Vector:
+            return tuple(real(real(2 * a[k]) - b[k]) for k in range(3))
+
+        for group in _eights(pairs):
+            for swapped in (False, True):
+                for j in group:
+                    at = beyond(places[j], here) if swapped else beyond(here, places[j])
+                    if self._in_cell(at):
+                        self._propose(near, EXTRAPOLATED, at, square_between(here, places[j]))
+        if "parallelograms" not in self.flags:
+            return
+        for k in pairs:
+            d = tuple(real(here[i] - places[k][i]) for i in range(3))
+            side = real(real(real(d[0] * d[0]) + real(d[1] * d[1])) + real(d[2] * d[2]))
+            to_k = {j for j in self.pairs[k] if j < t}
+            to_t = {j for j in pairs if j < k}
+            for group in _eights(sorted(to_k | to_t)):
+                for members, sign, other in ((to_k, 1, places[k]), (to_t, -1, here)):
+                    for j in group:
+                        if j not in members:
+                            continue
+                        at = tuple(real(places[j][i] + sign * d[i]) for i in range(3))
+                        if self._in_cell(at):
+                            square = real(side + square_between(places[j], other))
+                            self._propose(near, PARALLELOGRAM, at, square)
+
+    def start_box(self, q: Question, spacing: float, error: float, surface: Surface) -> None:
+        width = real(real(real(0.6) * error) * spacing)
+        if self.scales == 1:
+            scales = [real(1.0 / real(real(0.25 * width) + real(0.4)))]
+        else:
+            scales = [
+                real(1.0 / real(real(real(0.12) * width) + real(0.38))),
+                real(1.0 / real(width + 0.5)),
+            ]
+        self.groups = [Group(scales) for _ in range(3)]
+        margin = real(real(0.3) * spacing)
+        half = [real(real(0.5 * q.size[k]) + margin) for k in range(3)]
+        separate = "separate kinds" in self.flags
+        for at, weight, kind in self.listed:
+            if all(abs(real(at[k] - q.centre[k])) <= half[k] for k in range(3)):
+                self.groups[kind if separate else EXTRAPOLATED].add(at, weight)
+        if "projection" in self.flags and surface.quadric:
+            self._project(surface, spacing, self.groups[EXTRAPOLATED])
+            if separate:
+                self._project(surface, spacing, self.groups[PARALLELOGRAM])
+        for group in self.groups:
+            group.spread(q)
+
+    def _project(self, surface: Surface, spacing: float, group: Group) -> None:
+        s, t = surface.quadric, surface.quadric.term
+        px, py, pz = (
+            scaled(shifted(group.place[k], -s.centre[k]), s.unit) for k in range(3)
+        )
+
+        def along(w: Vector) -> Row:
+            return plus(plus(scaled(px, w[0]), scaled(py, w[1])), scaled(pz, w[2]))
+
+        a, b, c = along(s.u), along(s.v), along(s.normal)
+        inner = plus(shifted(scaled(a, t[3]), t[1]), scaled(b, t[4]))
+        curved = plus(shifted(times(a, inner), t[0]), times(b, shifted(scaled(b, t[5]), t[2])))
+        heights = less(c, curved)
+        moved = scaled(row([h if -0.5 < h < 0.5 else 0.0 for h in heights]), spacing)
+        columns = [less(group.place[k], scaled(moved, s.normal[k])) for k in range(3)]
+        for x, y, z, weight in zip(*columns, group.weight):
+            self.groups[PROJECTED].add((x, y, z), weight)
+
+    def ask(self, q: Question) -> None:
+        self.answers = [
+            [Answer(*group.ask(kernel, q)) for kernel in group.kernels] for group in self.groups
+        ]
+
+    def take(self, axis: int, upper: int) -> None:
+        for group in self.groups:
+            group.take(axis, upper)
+
+    def nearest_square(self, at: Vector, most: float) -> float:
+        for kind in (PROJECTED, PARALLELOGRAM, EXTRAPOLATED):
+            group = self.groups[kind]
+            if len(group.weight) or kind == EXTRAPOLATED:
+                found = squares(*(shifted(group.place[k], -at[k]) for k in range(3)))
+                return min([most, *found])
+        return most
+
+
+def _eights(numbers: list[int]) -> list[list[int]]:
+    """Numbers in groups of the same eighth."""
+    groups: dict[int, list[int]] = {}
+    for j in numbers:
+        groups.setdefault(j // 8, []).append(j)
+    return list(groups.values())
