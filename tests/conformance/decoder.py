@@ -4,7 +4,7 @@
 
 prints what each file holds as JSON, with the hash of its decoded content (see
 Testing/Data/conformance/README.md), or the kind of error that it is refused with. Of method
-surface only the structure is read, as of mirrors and range images of method predictive.
+surface only the structure is read.
 """
 
 from __future__ import annotations

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from elementary import require
+from predictive_sets import Mirror, RangeImage
 from predictive_tree import Point, Tree
 from range_coder import RangeDecoder
 
@@ -75,12 +76,30 @@ class Predictive:
 
     def _sets(self, coder: RangeDecoder) -> None:
         if "range images" in self.features.flags and self.n >= 4000 and coder.bit(2048):
-            raise NotImplementedError("range images of method predictive")
-        self._set(coder, self.n, self.MOST_PLANES)
+            self.tree.points += RangeImage(coder, self.extent, self.n).points(self.n)
+            self._plain(coder, self.n - len(self.tree.points))
+        else:
+            self._set(coder, self.n, self.MOST_PLANES)
+
+    def _plain(self, coder: RangeDecoder, n: int) -> None:
+        self.tree.start(n)
+        self.tree.final_layer(coder)
 
     def _set(self, coder: RangeDecoder, n: int, planes: int) -> None:
         may_be_mirrored = "mirrors" in self.features.flags and planes > 0 and n >= 16
-        if may_be_mirrored and coder.bit(2048):
-            raise NotImplementedError("mirrors of method predictive")
-        self.tree.start(n)
-        self.tree.final_layer(coder)
+        if not (may_be_mirrored and coder.bit(2048)):
+            self._plain(coder, n)
+            return
+        mirror = Mirror(coder, self.extent)
+        originals = coder.uniform(n)
+        first = len(self.tree.points)
+        self._set(coder, originals, planes - 1)
+        left = n - originals
+        for original in self.tree.points[first : first + originals]:
+            copy = mirror.copy(original, self.tree.scene.phases)
+            if copy is not None:
+                require(left > 0, "a tile has more points than it says")
+                left -= 1
+                self.tree.points.append(copy)
+                self.tree.scene.learn_coordinates(copy)
+        self._plain(coder, left)

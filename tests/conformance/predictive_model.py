@@ -40,47 +40,68 @@ class Sets:
 
 
 class PlainMixer:
-    """Of two selectors."""
+    """Of two selectors or more."""
 
     def __init__(self, start: float, rate: tuple[float, float, float]):
-        self.first, self.second = Sets(start, rate), Sets(0.0, rate)
+        self.start, self.rate = start, rate
+        self.sets: list[Sets] = []
 
     def decode(self, coder: RangeDecoder, inputs, selected: tuple) -> int:
+        while len(self.sets) < len(selected):
+            self.sets.append(Sets(0.0 if self.sets else self.start, self.rate))
         n = len(inputs)
-        a, b = self.first.of(selected[0], n), self.second.of(selected[1], n)
-        probability = squash(clamp(total(times(plus(a[:n], b[:n]), inputs)), -11.0, 11.0))
+        picked = [sets.of(key, n) for sets, key in zip(self.sets, selected)]
+        weights = picked[0][:n]
+        for other in picked[1:]:
+            weights = plus(weights, other[:n])
+        probability = squash(clamp(total(times(weights, inputs)), -11.0, 11.0))
         bit = coder.bit(int(clamp(real(probability * 65536), 4.0, 65532.0)))
-        step = real(self.first.step(selected[0]) * real(bit - probability))
-        a[:n] = plus(a[:n], scaled(inputs, step))
-        b[:n] = plus(b[:n], scaled(inputs, real(0.5 * step)))
-        self.first.count(selected[0])
+        step = real(self.sets[0].step(selected[0]) * real(bit - probability))
+        for i, weights in enumerate(picked):
+            weights[:n] = plus(weights[:n], scaled(inputs, step if i == 0 else real(0.5 * step)))
+        self.sets[0].count(selected[0])
         return bit
 
 
 class LayeredMixer:
-    """Of four selectors, the first and the last of them once more."""
+    """Of several selectors, the first and the last of them once more, and several final sets."""
 
-    PACES = (1.0, 1.0, 1.0, 1.0, real(0.2), 3.0)
+    def __init__(self, start: float, rate: tuple[float, float, float], final_floor: float):
+        self.start, self.rate = start, rate
+        self.final_rate = (0.015, 10.0, final_floor)
+        self.sets: list[Sets] = []
+        self.finals: list[Sets] = []
 
-    def __init__(self, start: float, rate: tuple[float, float, float]):
-        self.sets = [Sets(start, rate) for _ in range(6)]
-        self.final = Sets(1 / 6, (0.015, 10.0, 0.001))
+    def _make(self, selectors: int, finals: int) -> None:
+        self.sets = [Sets(self.start, self.rate) for _ in range(selectors + 2)]
+        self.finals = [Sets(1 / (selectors + 2), self.final_rate) for _ in range(finals)]
 
-    def decode(self, coder: RangeDecoder, inputs, selected: tuple, final_key: object) -> int:
-        n, picked = len(inputs), (*selected, selected[0], selected[3])
-        final = self.final.of(final_key, 6)
-        logits, mixed = [], 0.0
-        for sets, key, f in zip(self.sets, picked, final):
-            logit = clamp(total(times(sets.of(key, n)[:n], inputs)), -11.0, 11.0)
-            logits.append(logit)
-            mixed = real(mixed + real(f * logit))
-        probability = squash(clamp(mixed, -11.0, 11.0))
+    def decode(self, coder: RangeDecoder, inputs, selected: tuple, final_keys: tuple) -> int:
+        if not self.sets:
+            self._make(len(selected), len(final_keys))
+        n, picked = len(inputs), (*selected, selected[0], selected[-1])
+        logits = [
+            clamp(total(times(sets.of(key, n)[:n], inputs)), -11.0, 11.0)
+            for sets, key in zip(self.sets, picked)
+        ]
+        finals = [sets.of(key, len(logits)) for sets, key in zip(self.finals, final_keys)]
+        mixed, mean = [], 0.0
+        for weights in finals:
+            u = 0.0
+            for f, logit in zip(weights, logits):
+                u = real(u + real(f * logit))
+            mixed.append(u)
+            mean = real(mean + u)
+        mean = real(mean * real(1 / len(finals)))
+        probability = squash(clamp(mean, -11.0, 11.0))
         bit = coder.bit(int(clamp(real(probability * 65536), 4.0, 65532.0)))
-        final_step = real(self.final.step(final_key) * real(bit - probability))
-        self.final.count(final_key)
+        for sets, key, weights, u in zip(self.finals, final_keys, finals, mixed):
+            step = real(sets.step(key) * real(bit - squash(clamp(u, -11.0, 11.0))))
+            sets.count(key)
+            weights[:] = plus(weights, scaled(row(logits), step))
         for i, (sets, key, logit) in enumerate(zip(self.sets, picked, logits)):
-            final[i] = real(final[i] + real(final_step * logit))
-            step = real(real(sets.step(key) * self.PACES[i]) * real(bit - squash(logit)))
+            pace = (real(0.2), 3.0)[i - len(selected)] if i >= len(selected) else 1.0
+            step = real(real(sets.step(key) * pace) * real(bit - squash(logit)))
             sets.count(key)
             weights = sets.of(key, n)
             weights[:n] = plus(weights[:n], scaled(inputs, step))
@@ -90,8 +111,8 @@ class LayeredMixer:
 class Evidence:
     """Inputs, and the counters among them."""
 
-    def __init__(self, counters: Counters):
-        self.all, self.inputs = counters, row()
+    def __init__(self, counters: Counters, greatest_age: int = GREATEST_AGE):
+        self.all, self.inputs, self.greatest_age = counters, row(), greatest_age
         self.used: list[Counter] = []
 
     def add(self, logit: float) -> None:
@@ -104,7 +125,7 @@ class Evidence:
 
     def learn(self, bit: int) -> int:
         for counter in self.used:
-            counter.learn(bit, GREATEST_AGE)
+            counter.learn(bit, self.greatest_age)
         return bit
 
 
@@ -146,8 +167,11 @@ class DecisionModel:
     def __init__(self, flags: set[str]):
         self.flags, self.layered = flags, "two layers" in flags
         self.counters = Counters()
-        self.side_mixer = LayeredMixer(0.09, (0.04, 200.0, 0.007)) if self.layered else PlainMixer(0.12, self.USUAL)
-        self.more_mixer = LayeredMixer(0.2, (0.05, 200.0, 0.005)) if self.layered else PlainMixer(0.12, self.USUAL)
+        if self.layered:
+            self.side_mixer = LayeredMixer(0.09, (0.04, 200.0, 0.007), 0.003)
+            self.more_mixer = LayeredMixer(0.2, (0.05, 200.0, 0.005), 0.003)
+        else:
+            self.side_mixer, self.more_mixer = (PlainMixer(0.12, self.USUAL) for _ in range(2))
         self.share_mixer = PlainMixer(0.12, self.USUAL)
 
     def upper_count(self, coder: RangeDecoder, n: int, q: Question, p: Scene) -> int:
@@ -201,8 +225,12 @@ class DecisionModel:
         if not self.layered:
             return e.learn(self.side_mixer.decode(coder, e.inputs, (first, second)))
         about = (p.in_cell, z)
-        selected = (first, (*about, min(s.distances)), (z, s.mass, s.open), second)
-        return e.learn(self.side_mixer.decode(coder, e.inputs, selected, about))
+        selected = (
+            first, (*about, min(s.distances)), (z, s.mass, s.open), (z, *s.kinds[:2]),
+            (*about, s.surface), second,
+        )  # fmt: skip
+        finals = (about, (*about, s.error, q.axis))
+        return e.learn(self.side_mixer.decode(coder, e.inputs, selected, finals))
 
     def _side_contexts(self, e: Evidence, z: int, s: Situation, q: Question, p: Scene) -> None:
         flags, c = self.flags, s.kinds
@@ -256,7 +284,7 @@ class DecisionModel:
         if not self.layered:
             return e.learn(self.more_mixer.decode(coder, e.inputs, ((t, speaks), t)))
         selected = ((t, speaks), (t, s.size), (t, doubt_class, balance), (t, p.in_cell, q.axis))
-        return e.learn(self.more_mixer.decode(coder, e.inputs, selected, t))
+        return e.learn(self.more_mixer.decode(coder, e.inputs, selected, (t, p.in_cell)))
 
     def _share(
         self, coder: RangeDecoder, n: int, depth: int, bounds: tuple[int, int, int], s: Situation, p: Scene
