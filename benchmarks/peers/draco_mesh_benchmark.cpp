@@ -18,15 +18,14 @@
 #include <cstdint>
 #include <cstdio>
 #include <exception>
-#include <fstream>
 #include <memory>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "bspc/decoder.h"
 #include "bspc/encoder.h"
+#include "off_model.h"
 
 namespace bspc {
 namespace {
@@ -34,58 +33,7 @@ namespace {
 constexpr unsigned kBits = 12;
 constexpr unsigned kMostEffort = 9;
 
-struct Model {
-  std::vector<float> xyz;
-  MeshCells cells;
-
-  std::uint64_t points() const { return xyz.size() / 3; }
-  std::size_t triangles() const { return cells.faces.size(); }
-};
-
-/// The next line that is not empty, without comments.
-bool nextLine(std::istream& in, std::istringstream& line) {
-  std::string text;
-  while (std::getline(in, text)) {
-    text = text.substr(0, text.find('#'));
-    if (text.find_first_not_of(" \t\r") == std::string::npos) continue;
-    line.clear();
-    line.str(text);
-    return true;
-  }
-  return false;
-}
-
-Model readOff(const std::string& name) {
-  std::ifstream in(name);
-  std::istringstream line;
-  std::string keyword;
-  std::size_t vertices = 0;
-  std::size_t faces = 0;
-  const auto bad = [&] { return std::runtime_error(name + " is no OFF file of this benchmark"); };
-  if (!nextLine(in, line) || !(line >> keyword) || keyword.find("OFF") == std::string::npos) {
-    throw bad();
-  }
-  if (!(line >> vertices) && !(nextLine(in, line) && line >> vertices)) throw bad();
-  if (!(line >> faces)) throw bad();
-  Model model;
-  for (std::size_t i = 0; i < vertices; ++i) {
-    std::array<double, 3> p{};
-    if (!nextLine(in, line) || !(line >> p[0] >> p[1] >> p[2])) throw bad();
-    for (const double x : p) model.xyz.push_back(static_cast<float>(x));
-  }
-  for (std::size_t i = 0; i < faces; ++i) {
-    std::size_t corners = 0;
-    if (!nextLine(in, line) || !(line >> corners)) throw bad();
-    std::vector<std::uint32_t> face(corners);
-    for (std::uint32_t& v : face) {
-      if (!(line >> v) || v >= vertices) throw bad();
-    }
-    for (std::size_t j = 2; j < corners; ++j) {
-      model.cells.faces.add(std::vector<std::uint32_t>{face[0], face[j - 1], face[j]});
-    }
-  }
-  return model;
-}
+using bench::OffModel;
 
 struct Sizes {
   std::size_t whole = 0;
@@ -111,7 +59,7 @@ class MeasuringEncoder : public draco::MeshEdgebreakerEncoder {
   std::size_t connectivity_ = 0;
 };
 
-std::unique_ptr<draco::Mesh> dracoMesh(const Model& model) {
+std::unique_ptr<draco::Mesh> dracoMesh(const OffModel& model) {
   auto mesh = std::make_unique<draco::Mesh>();
   const auto count = static_cast<std::uint32_t>(model.points());
   mesh->set_num_points(count);
@@ -122,8 +70,8 @@ std::unique_ptr<draco::Mesh> dracoMesh(const Model& model) {
   for (std::uint32_t i = 0; i < count; ++i) {
     mesh->attribute(id)->SetAttributeValue(draco::AttributeValueIndex(i), &model.xyz[3 * i]);
   }
-  mesh->SetNumFaces(model.triangles());
-  for (std::uint32_t i = 0; i < model.triangles(); ++i) {
+  mesh->SetNumFaces(model.cells.faces.size());
+  for (std::uint32_t i = 0; i < model.cells.faces.size(); ++i) {
     draco::Mesh::Face face;
     for (unsigned j = 0; j < 3; ++j) face[j] = draco::PointIndex(model.cells.faces[i][j]);
     mesh->SetFace(draco::FaceIndex(i), face);
@@ -134,7 +82,7 @@ std::unique_ptr<draco::Mesh> dracoMesh(const Model& model) {
   return mesh;
 }
 
-Sizes withDraco(const Model& model) {
+Sizes withDraco(const OffModel& model) {
   const std::unique_ptr<draco::Mesh> mesh = dracoMesh(model);
   draco::EncoderOptions options = draco::EncoderOptions::CreateDefaultOptions();
   options.SetSpeed(0, 0);
@@ -150,7 +98,8 @@ Sizes withDraco(const Model& model) {
   if (!decoded.ok()) throw std::runtime_error("Draco: " + decoded.status().error_msg_string());
   const draco::Mesh& back = *decoded.value();
   return {buffer.size(), encoder.connectivity(),
-          back.num_faces() == model.triangles() && back.num_points() == model.points(), false};
+          back.num_faces() == model.cells.faces.size() && back.num_points() == model.points(),
+          false};
 }
 
 std::vector<std::array<std::uint64_t, 3>> sortedFaces(const Cells& faces,
@@ -168,7 +117,7 @@ std::vector<std::array<std::uint64_t, 3>> sortedFaces(const Cells& faces,
   return result;
 }
 
-Sizes withBspc(const Model& model, const EncodeOptions& options) {
+Sizes withBspc(const OffModel& model, const EncodeOptions& options) {
   PointSetView view(model.xyz.data(), model.points());
   view.setMesh(&model.cells);
   MemorySink sink;
@@ -183,7 +132,7 @@ Sizes withBspc(const Model& model, const EncodeOptions& options) {
 }
 
 void measure(const std::string& name, bool positionsFirst) {
-  const Model model = readOff(name);
+  const OffModel model = bench::inTriangles(bench::readOff(name));
   EncodeOptions options;
   options.grid = GridRequest::withBits(kBits);
   options.effort = kMostEffort;
@@ -193,15 +142,15 @@ void measure(const std::string& name, bool positionsFirst) {
   const Sizes bspc = withBspc(model, options);
   const Sizes draco = withDraco(model);
   const auto perTriangle = [&](std::size_t bytes) {
-    return 8.0 * static_cast<double>(bytes) / static_cast<double>(model.triangles());
+    return 8.0 * static_cast<double>(bytes) / static_cast<double>(model.cells.faces.size());
   };
-  std::printf(
-      "%-24s %8llu %9zu | %9zu %9zu %7.3f%c| %9zu %9zu %7.3f | %6.3f%s\n",
-      name.substr(name.rfind('/') + 1).c_str(), static_cast<unsigned long long>(model.points()),
-      model.triangles(), bspc.whole - bspc.faces, bspc.faces, perTriangle(bspc.faces),
-      bspc.alongFaces ? '*' : ' ', draco.whole - draco.faces, draco.faces, perTriangle(draco.faces),
-      static_cast<double>(bspc.whole) / static_cast<double>(draco.whole),
-      draco.kept ? "" : " (Draco changed it)");
+  std::printf("%-24s %8llu %9zu | %9zu %9zu %7.3f%c| %9zu %9zu %7.3f | %6.3f%s\n",
+              bench::baseName(name).c_str(), static_cast<unsigned long long>(model.points()),
+              model.cells.faces.size(), bspc.whole - bspc.faces, bspc.faces,
+              perTriangle(bspc.faces), bspc.alongFaces ? '*' : ' ', draco.whole - draco.faces,
+              draco.faces, perTriangle(draco.faces),
+              static_cast<double>(bspc.whole) / static_cast<double>(draco.whole),
+              draco.kept ? "" : " (Draco changed it)");
   std::fflush(stdout);
 }
 

@@ -38,7 +38,7 @@ class GateSymbols:
         self.coder, self.front = coder, front
         self.counters = Counters()
         self.border_mixer = Mixer([0.4] * 4, 0.03, 300, 0.01)
-        self.mixer = Mixer([0.6] + [0.12] * 10 + [0.0], 0.03, 300, 0.01)
+        self.mixer = Mixer([0.6] + [0.12] * 10 + [0.0], 0.015, 300, 0.003)
         self.omega, self.any_border = 0, False
         self.places = (0, 0, 0)
 

@@ -8,7 +8,19 @@ from mesh_front import Front, Gate, Position
 from reals import LOG2_E, Vector, clamp, cross, dot, exp2, ln, minus, real, root
 
 FEATURES = 24
-BIASES = (0.0, 0.5, 1.0, -2.0)
+# Of each feature, for the kinds of candidates.
+FIRST_WEIGHTS = {
+    0: (0.8, 1.2, 1.2, -1.4),
+    1: (-2.8, -2.8, -2.8, -2.8),
+    2: (-0.2, -0.2, 0, 0),
+    3: (-2.2, -2, -2, -2),
+    7: (-0.2, 0, 0, -0.2),
+    8: (-0.4, -0.2, 0, -0.2),
+    9: (0.2, 0, 0, 0.2),
+    10: (0, 0.2, -0.2, 0),
+    11: (-1.2, -1, -1, -1.2),
+    16: (-1, -1, -1, -1),
+}
 
 
 def half(x: int) -> float:
@@ -112,7 +124,8 @@ class Ranker:
         for gate in range(6):
             for kind in range(4):
                 w = [0.0] * FEATURES
-                w[0], w[1], w[3], w[11], w[16] = BIASES[kind], -3.0, -2.0, -1.0, -1.0
+                for feature, first in FIRST_WEIGHTS.items():
+                    w[feature] = real(first[kind])
                 self.weights[gate, kind] = w
 
     def rank(self, gate: Gate, reach: int, kept: int, everyone: bool = False) -> Ranking:
@@ -140,7 +153,7 @@ class Ranker:
             if abs(error) < real(0.003):
                 continue
             w = self.weights[ranking.gate.kind(), c.kind]
-            step = real(real(0.02) * error)
+            step = real(real(0.03) * error)
             for f in range(FEATURES):
                 w[f] = real(w[f] + real(step * c.f[f]))
 

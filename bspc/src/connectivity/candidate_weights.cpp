@@ -6,25 +6,40 @@ namespace bspc::connectivity {
 
 namespace {
 
-constexpr float kRate = 0.02F;
+constexpr float kRate = 0.03F;
 /// Errors below this teach nothing worth the time.
 constexpr float kSmallError = 0.003F;
 
-CandidateWeights::Weights startOf(unsigned candidateKind) {
-  constexpr std::array<float, kKinds> kBiases{0, 0.5F, 1, -2};
-  CandidateWeights::Weights w{};
-  w[kBias] = kBiases[candidateKind];
-  w[kCotangent] = -3;
-  w[kFold] = -2;
-  w[kOverlap] = -1;
-  w[kRank] = -1;
-  return w;
-}
+/// The weights of a feature for each kind of candidate.
+struct FirstWeights {
+  Feature feature;
+  std::array<float, kKinds> weights;
+};
+
+/// Set by hand, a tenth of the way towards what bumpy spheres and terrains teach: further on, and
+/// meshes of other sorts suffer.
+constexpr std::array<FirstWeights, 10> kFirstWeights{{
+    {kBias, {0.8F, 1.2F, 1.2F, -1.4F}},
+    {kCotangent, {-2.8F, -2.8F, -2.8F, -2.8F}},
+    {kCosine, {-0.2F, -0.2F, 0, 0}},
+    {kFold, {-2.2F, -2, -2, -2}},
+    {kPerimeterChange, {-0.2F, 0, 0, -0.2F}},
+    {kPerimeter, {-0.4F, -0.2F, 0, -0.2F}},
+    {kParallelogram, {0.2F, 0, 0, 0.2F}},
+    {kParallelogramLog, {0, 0.2F, -0.2F, 0}},
+    {kOverlap, {-1.2F, -1, -1, -1.2F}},
+    {kRank, {-1, -1, -1, -1}},
+}};
 
 }  // namespace
 
 CandidateWeights::CandidateWeights() {
-  for (unsigned i = 0; i < weights_.size(); ++i) weights_[i] = startOf(i % kKinds);
+  for (unsigned i = 0; i < weights_.size(); ++i) {
+    weights_[i] = {};
+    for (const FirstWeights& first : kFirstWeights) {
+      weights_[i][first.feature] = first.weights[i % kKinds];
+    }
+  }
 }
 
 void CandidateWeights::learn(unsigned gateKind, const std::vector<Candidate>& candidates,

@@ -178,7 +178,7 @@ class MeshEncoder {
       head.triangles = head.triangles && prepared.faces[i].size() == 3;
     }
     head.surestFirst = wishes_.effort > 4;
-    head.neighbours = wishes_.effort > 4 ? 12 : 6;
+    head.neighbours = wishes_.effort > 7 ? 16 : wishes_.effort > 4 ? 12 : 6;
     head.code(coder_);
 
     const std::vector<Position> places =

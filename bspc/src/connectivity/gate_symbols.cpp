@@ -44,7 +44,7 @@ constexpr std::array<unsigned, 3> kBorderContextSizes{24, 384, 288};
 }  // namespace
 
 GateSymbols::GateSymbols()
-    : candidate_({static_cast<unsigned>(2 * kStages)}, kContexts + 2, 0.12F, {0.03F, 300, 0.01F},
+    : candidate_({static_cast<unsigned>(2 * kStages)}, kContexts + 2, 0.12F, {0.015F, 300, 0.003F},
                  kCandidateAge),
       border_({6}, kBorderContexts + 1, 0.4F, {0.03F, 300, 0.01F}, kBorderAge) {
   for (unsigned i = 0; i < kContexts; ++i) contexts_[i].resize(kStages * kContextSizes[i]);
