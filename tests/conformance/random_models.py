@@ -60,6 +60,18 @@ def _shape(rng: random.Random, n: int) -> list[Point]:
     return [rng.choice(few) for _ in range(n)]  # with repetitions
 
 
+def _mirrored(rng: random.Random) -> list[Point]:
+    """Points and their copies in a plane, some of them a step off or missing."""
+    points: list[Point] = []
+    for _ in range(rng.choice((12, 30, 60))):
+        p = [float(rng.randrange(s)) for s in (50, 80, 30)]
+        copy = [100 - p[0], p[1] + rng.choice((0, 0, 0, 1)), p[2]]
+        points.append((p[0], p[1], p[2]))
+        if rng.randrange(8):
+            points.append((copy[0], copy[1], copy[2]))
+    return points
+
+
 def _column(rng: random.Random, points: list[Point], kind: str) -> list[float]:
     """Values of an array of a PLY type."""
     letter, low, high = PLY_TYPES[kind]
@@ -144,6 +156,9 @@ def model(seed: int) -> tuple[bytes, list[str]]:
     points, faces = _shape(rng, n), []
     if method != "predictive" and rng.randrange(4) == 0:
         points, faces = random_meshes.mesh(rng)
+    if method == "predictive" and rng.randrange(3) == 0:
+        points = _mirrored(rng)
+        n = len(points)
     data, floats = ply(rng, points, faces)
     options = ["--method", method]
     if method == "fast":
