@@ -84,7 +84,8 @@ def streaming_rules(good: bytes) -> Iterator[BadFile]:
     cases.set("an index of other tiles", index=varint(1) + first.tiles[0].record())
     other = varint(len(first.tiles)) + b"".join(t.record() for t in reversed(first.tiles))
     cases.set("an index of tiles in another order", index=other)
-    cases.set("an index that goes on", index=varint(len(first.tiles)) + b"".join(t.record() for t in first.tiles) + b"\0")
+    whole = varint(len(first.tiles)) + b"".join(t.record() for t in first.tiles)
+    cases.set("an index that goes on", index=whole + b"\0")
     cases.set("an End block that leads elsewhere", index_offset=struct.pack("<Q", 12))
     cases.set("an End block that leads beyond the file", index_offset=struct.pack("<Q", 1 << 63))
     # What does not end with an End block may have been cut short.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from lanes import Row, bell_of, inverted, less, plus, row, scaled, shifted, squares, times, total
+from lanes import Row, bell_of, inverted, plus, row, scaled, shifted, squares, times, total
 from reals import Vector, cross, dot, ln, real, root
 
 TWELFTH = real(1 / 12)
@@ -106,7 +106,8 @@ def _adjugate(m: Symmetric) -> Symmetric:
     def minor(a: int, b: int, c: int, d: int) -> float:
         return real(real(m[a] * m[b]) - real(m[c] * m[d]))
 
-    return minor(3, 5, 4, 4), minor(2, 4, 1, 5), minor(1, 4, 2, 3), minor(0, 5, 2, 2), minor(1, 2, 0, 4), minor(0, 3, 1, 1)
+    entries = ((3, 5, 4, 4), (2, 4, 1, 5), (1, 4, 2, 3), (0, 5, 2, 2), (1, 2, 0, 4), (0, 3, 1, 1))
+    return tuple(minor(*entry) for entry in entries)
 
 
 def _squared(m: Symmetric) -> Symmetric:
