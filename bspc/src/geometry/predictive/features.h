@@ -31,6 +31,8 @@ struct Features {
   enum class Refit : std::uint8_t { PerCell, PerPoint, Always };
 
   static constexpr std::uint8_t kMostNearPoints = 24;
+  /// What the encoder tries beside the effort's number of points a cell.
+  static constexpr std::uint8_t kLargeCellPoints = 12;
 
   std::uint32_t flags = kAllFlags;
   std::uint8_t cellPoints = 6;   ///< cells of so many points or fewer are coded depth first

@@ -193,6 +193,12 @@ inline unsigned effortOf(const TileInput& tile) {
   return std::clamp(tile.wishes.effort, kLeastEffort, kMostEffort);
 }
 
+/// Whether the number of the effort says what the features are.
+inline bool isOfEffort(const Features& features, const TileInput& tile) {
+  return tile.wishes.features == nullptr &&
+         features.cellPoints == featuresOf(effortOf(tile)).cellPoints;
+}
+
 /// With the structure that was found, or part of it.
 inline EncodedTile encodeWith(const Features& features, const TileStructure& structure,
                               const TileInput& tile, const PointProgress& progress) {
@@ -210,7 +216,7 @@ inline EncodedTile encodeWith(const Features& features, const TileStructure& str
     entropy::SymbolWriter coder;
     if (layer == 0) {
       Features coded = features;
-      codeFeatures(coder, tile.wishes.features == nullptr ? effortOf(tile) : kOwnFeatures, coded);
+      codeFeatures(coder, isOfEffort(features, tile) ? effortOf(tile) : kOwnFeatures, coded);
       // Too large for the stack of a thread.
       tree =
           std::make_unique<Encoding>(features, tile.extent, gridBits(tile.extent), count, points);
@@ -243,6 +249,41 @@ inline std::size_t totalBytes(const EncodedTile& coded) {
   return bytes;
 }
 
+/// Some points that lie together, out of many.
+inline std::vector<GridPoint> sampleOf(const TileInput& tile, std::size_t count) {
+  const std::vector<GridPoint> all = SortedPoints(tile, {}).all();
+  const std::vector<std::uint32_t> sequence = mortonOrder(all, tile.extent);
+  std::vector<GridPoint> sample;
+  sample.reserve(count);
+  const std::size_t first = (all.size() - count) / 2;
+  for (std::size_t i = first; i < first + count; ++i) sample.push_back(all[sequence[i]]);
+  return sample;
+}
+
+/// The features with larger cells, if a sample takes fewer bits with those: what scans of leaves
+/// and grass do, and meshes do not.
+inline Features withBestCells(const Features& features, const TileInput& tile) {
+  constexpr std::size_t kSample = 4096;
+  Features larger = features;
+  larger.cellPoints = Features::kLargeCellPoints;
+  TileInput sample;
+  const std::vector<GridPoint> points =
+      sampleOf(tile, std::min<std::size_t>(kSample, tile.points.size()));
+  sample.points = points;
+  sample.lower = points[0];
+  GridPoint upper = points[0];
+  for (const GridPoint& p : points) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      sample.lower[k] = std::min(sample.lower[k], p[k]);
+      upper[k] = std::max(upper[k], p[k]);
+    }
+  }
+  for (std::size_t k = 0; k < 3; ++k) sample.extent[k] = upper[k] - sample.lower[k];
+  const std::size_t usual = totalBytes(encodeWith(features, {}, sample, {}));
+  const std::size_t other = totalBytes(encodeWith(larger, {}, sample, {}));
+  return other < usual ? larger : features;
+}
+
 inline EncodedTile encode(const TileInput& tile, const PointProgress& progress) {
   if (tile.points.size() > std::numeric_limits<std::uint32_t>::max()) {
     throw Error(ErrorCode::Unsupported,
@@ -250,8 +291,12 @@ inline EncodedTile encode(const TileInput& tile, const PointProgress& progress) 
                 "has " +
                     std::to_string(tile.points.size()));
   }
-  const Features features =
-      tile.wishes.features == nullptr ? featuresOf(effortOf(tile)) : *tile.wishes.features;
+  const bool isGiven = tile.wishes.features != nullptr;
+  Features features = isGiven ? *tile.wishes.features : featuresOf(effortOf(tile));
+  constexpr std::size_t kWorthTrying = 1000;  // points; fewer make little difference
+  if (!isGiven && features.has(Features::kTwoLayers) && tile.points.size() >= kWorthTrying) {
+    features = withBestCells(features, tile);
+  }
   TileStructure structure =
       findStructure(SortedPoints(tile, progress).all(), tile.extent, features);
   EncodedTile best = encodeWith(features, structure, tile, progress);
