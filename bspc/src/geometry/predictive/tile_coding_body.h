@@ -293,7 +293,7 @@ inline EncodedTile encode(const TileInput& tile, const PointProgress& progress) 
   }
   const bool isGiven = tile.wishes.features != nullptr;
   Features features = isGiven ? *tile.wishes.features : featuresOf(effortOf(tile));
-  constexpr std::size_t kWorthTrying = 1000;  // points; fewer make little difference
+  constexpr std::size_t kWorthTrying = 20000;  // points; of fewer the sample is too large a part
   if (!isGiven && features.has(Features::kTwoLayers) && tile.points.size() >= kWorthTrying) {
     features = withBestCells(features, tile);
   }
