@@ -293,8 +293,9 @@ inline EncodedTile encode(const TileInput& tile, const PointProgress& progress) 
   }
   const bool isGiven = tile.wishes.features != nullptr;
   Features features = isGiven ? *tile.wishes.features : featuresOf(effortOf(tile));
+  constexpr unsigned kTryingEffort = 8;
   constexpr std::size_t kWorthTrying = 20000;  // points; of fewer the sample is too large a part
-  if (!isGiven && features.has(Features::kTwoLayers) && tile.points.size() >= kWorthTrying) {
+  if (!isGiven && effortOf(tile) >= kTryingEffort && tile.points.size() >= kWorthTrying) {
     features = withBestCells(features, tile);
   }
   TileStructure structure =
