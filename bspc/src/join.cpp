@@ -175,7 +175,7 @@ class Joiner {
     const JoinedMeshes::Source& source = meshes_.source(number);
     container::MeshBlock block = files_[source.file]->meshBlock(source.block);
     block.firstTile = saturatingAdd(block.firstTile, source.firstTile);
-    return container::writeMeshBlock(block);
+    return container::writeMeshBlock(block, head_.mesh.arrays);
   }
 
   std::uint64_t writeStreaming(ByteSink& sink) {

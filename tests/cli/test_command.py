@@ -208,7 +208,7 @@ class Info(CommandTest):
         self.succeed("encode", "a.ply", "a.bspc", "--layers", "3")
         info = json.loads(self.succeed("info", "a.bspc", "--json"))
         size = os.path.getsize(self.path("a.bspc"))
-        self.assertEqual(info["version"], "0.1")
+        self.assertEqual(info["version"], "1.0")
         self.assertEqual(info["layout"], "progressive")
         self.assertEqual(info["points"], 6002)
         self.assertEqual(info["fileBytes"], size)

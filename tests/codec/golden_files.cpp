@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <fstream>
+#include <iterator>
 #include <random>
 
 #include "geometry/geometry_method.h"
@@ -118,6 +120,16 @@ std::vector<GoldenFile> goldenFiles() {
     files.push_back(std::move(file));
   }
   return files;
+}
+
+std::string goldenPath(const std::string& name) {
+  const std::string changed = BSPC_TEST_DATA "/golden/" + name + ".bspc";
+  return std::ifstream(changed) ? changed : BSPC_TEST_DATA "/frozen_1.0/" + name + ".bspc";
+}
+
+Bytes readGolden(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return Bytes(std::istreambuf_iterator<char>(in), {});
 }
 
 Bytes encodeGolden(const GoldenFile& file, DecodedOrder* decoded) {

@@ -8,7 +8,7 @@
 
 namespace bspc::test {
 
-/// A file whose bytes are fixed: made here from integers alone, kept in Testing/Data/golden.
+/// A file whose bytes are fixed: made here from integers alone, kept in Testing/Data.
 struct GoldenFile {
   std::string name;  ///< without ending
   std::vector<double> xyz;
@@ -19,6 +19,11 @@ struct GoldenFile {
 };
 
 std::vector<GoldenFile> goldenFiles();
+
+/// The file of that name as today's encoder writes it: in Testing/Data/golden, or, if it has
+/// written the same since version 1.0 of the format, in Testing/Data/frozen_1.0.
+std::string goldenPath(const std::string& name);
+Bytes readGolden(const std::string& path);
 
 /// What a decoder gives back.
 struct DecodedOrder {

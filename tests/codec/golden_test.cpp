@@ -1,11 +1,10 @@
 // Files of earlier builds decode to the same points, and today's encoder still writes the same
-// bytes. tests/codec/write_golden.cpp makes the files anew when the format changes on purpose.
+// bytes. tests/codec/write_golden.cpp makes the files anew when the encoder changes on purpose;
+// those of Testing/Data/frozen_1.0 stay, and tests/conformance checks that they are still read.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 
 #include "codec/codec_support.h"
 #include "codec/golden_files.h"
@@ -14,17 +13,11 @@
 namespace bspc {
 namespace {
 
-Bytes readFile(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  EXPECT_TRUE(in) << path << " is missing";
-  return Bytes(std::istreambuf_iterator<char>(in), {});
-}
-
 class Golden : public testing::TestWithParam<test::GoldenFile> {};
 
 TEST_P(Golden, DecodesToTheFixedPoints) {
   const test::GoldenFile& file = GetParam();
-  const Bytes bytes = readFile(BSPC_TEST_DATA "/golden/" + file.name + ".bspc");
+  const Bytes bytes = test::readGolden(test::goldenPath(file.name));
   test::DecodedOrder wanted;
   test::encodeGolden(file, &wanted);
   Decoder decoder = test::open(bytes);
@@ -47,7 +40,7 @@ TEST_P(Golden, DecodesToTheFixedFaces) {
   const test::GoldenFile& file = GetParam();
   test::DecodedOrder wanted;
   test::encodeGolden(file, &wanted);
-  const Bytes bytes = readFile(BSPC_TEST_DATA "/golden/" + file.name + ".bspc");
+  const Bytes bytes = test::readGolden(test::goldenPath(file.name));
   const DecodedPoints decoded = test::open(bytes).decode();
   ASSERT_EQ(decoded.mesh.faces.size(), file.cells.faces.size());
   for (std::size_t i = 0; i < decoded.mesh.faces.size(); ++i) {
@@ -64,7 +57,7 @@ TEST_P(Golden, DecodesToTheFixedFaces) {
 TEST_P(Golden, IsWrittenByteForByte) {
   // Versions of zstd, which codes some values, need not write the same bytes.
   if (!GetParam().arrays.empty()) return;
-  const Bytes bytes = readFile(BSPC_TEST_DATA "/golden/" + GetParam().name + ".bspc");
+  const Bytes bytes = test::readGolden(test::goldenPath(GetParam().name));
   EXPECT_EQ(test::encodeGolden(GetParam(), nullptr), bytes);
 }
 

@@ -6,7 +6,7 @@ import struct
 from typing import Callable, Iterator
 
 from container import END, INDEX
-from draft import Draft, block, svarint, text, varint
+from draft import Draft, block, svarint, text, varint, zstd_frame
 
 BadFile = tuple[str, str, bytes]  # what is wrong, kind of error, the file
 CORRUPT, UNSUPPORTED, TRUNCATED, NOT_BSPC = "corrupt", "unsupported", "truncated", "not a .bspc file"
@@ -45,6 +45,7 @@ def file_rules(good: bytes) -> Iterator[BadFile]:
     cases.set("a signature that lost its top bit", NOT_BSPC, signature=b"\x0bBSP\r\n\x1a\n")
     cases.set("a signature with changed line ends", NOT_BSPC, signature=b"\x8bBSP\n\x1a\n\n")
     cases.set("an unknown major version", UNSUPPORTED, version=b"\x63\0")
+    cases.set("a draft of before version 1.0", UNSUPPORTED, version=b"\0\1")
     cases.set("bytes behind the end", tail=b"\0")
     cases.set("trailing blocks without an End block", TRUNCATED, flags=Draft(good).flags | 128)
     cases.set("streaming and trailing blocks", flags=Draft(good).flags | 160)
@@ -93,6 +94,7 @@ def streaming_rules(good: bytes) -> Iterator[BadFile]:
     cases.set("bytes behind the End block", TRUNCATED, tail=b"\0")
     cases.set("a required block that is unknown", UNSUPPORTED, before_index=[(LATER_REQUIRED, b"")])
     cases.set("a head that goes on", head_tail=b"\0")
+    cases.set("an optional block between tiles", behind_first=[(LATER_OPTIONAL, b"")])
     yield from cases.files
     yield "a streaming file without its End block", TRUNCATED, good[:-14]
 
@@ -146,6 +148,14 @@ def _metadata() -> Iterator[tuple[str, bytes, str]]:
     yield "metadata that end early", b"\0" + bytes(3), CORRUPT
     yield "metadata that go on", b"\0" + bytes(5), CORRUPT
     yield "metadata in a zstd frame that is none", b"\1" + bytes(12), CORRUPT
+    for what, frame in (
+        ("two frames", zstd_frame(bytes(3)) + zstd_frame(bytes(2))),
+        ("a skippable frame", b"\x50\x2a\x4d\x18\5\0\0\0" + bytes(5)),
+        ("a skippable frame before a frame", b"\x50\x2a\x4d\x18\0\0\0\0" + zstd_frame(bytes(5))),
+        ("a frame of a window above 2^23", zstd_frame(bytes(5), window=0x69)),
+        ("a frame with a dictionary", zstd_frame(bytes(1) + zstd_frame(bytes(5))[6:], descriptor=1)),
+    ):
+        yield f"metadata in {what}", b"\1" + frame, CORRUPT
     twice = (text(b"key") + text(b"value")) * 2
     yield "two entries with one key", b"\0\0\0\2" + twice + b"\0", CORRUPT
     array = text(b"field") + b"\x0a\1\1"

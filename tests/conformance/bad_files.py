@@ -29,28 +29,30 @@ from bad_payloads import array_rules, fast_rules, mesh_rules, partition_rules, p
 from content import Content
 from elementary import FormatError
 
-SET = os.path.join(os.path.dirname(__file__), "..", "..", "Testing", "Data", "conformance")
+DATA = os.path.join(os.path.dirname(__file__), "..", "..", "Testing", "Data")
 # What the library calls the kinds of the second decoder.
 LIBRARY_KINDS = {"not bspc": "not a .bspc file"}
 
 
 def good(name: str) -> bytes:
-    with open(os.path.join(SET, name + ".bspc"), "rb") as stream:
+    folders = ("frozen_1.0", "golden", "conformance")
+    paths = [os.path.join(DATA, folder, name + ".bspc") for folder in folders]
+    with open(next(p for p in paths if os.path.exists(p)), "rb") as stream:
         return stream.read()
 
 
 def all_bad_files() -> Iterator[BadFile]:
-    layers = good("../golden/kd_noise")
+    layers = good("kd_noise")
     for rules in (file_rules, head_rules, tile_rules):
         yield from rules(layers)
-    yield from grid_rules(good("../golden/kd_terrain"))
+    yield from grid_rules(good("kd_terrain"))
     yield from streaming_rules(good("streaming_tiles"))
-    yield from array_field_rules(good("../golden/kd_arrays"))
-    methods = {m: good(f"../golden/{m}_terrain_bits") for m in ("kd", "bsp", "octree", "gencode")}
+    yield from array_field_rules(good("kd_arrays"))
+    methods = {m: good(f"{m}_terrain_bits") for m in ("kd", "bsp", "octree", "gencode")}
     yield from partition_rules(methods)
-    yield from fast_rules(good("fast_slabs_gaps"), good("fast_slabs_trees"), good("../golden/fast_noise"))
-    yield from array_rules(good("../golden/kd_arrays"))
-    yield from predictive_rules(good("../golden/predictive_terrain_bits"))
+    yield from fast_rules(good("fast_slabs_gaps"), good("fast_slabs_trees"), good("fast_noise"))
+    yield from array_rules(good("kd_arrays"))
+    yield from predictive_rules(good("predictive_terrain_bits"))
     yield from mesh_rules(good("mesh"))
 
 

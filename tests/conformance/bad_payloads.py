@@ -6,11 +6,11 @@ import struct
 from typing import Iterator
 
 from bad_container import CORRUPT, UNSUPPORTED, BadFile, Cases
-from draft import Draft, varint
+from draft import Draft, varint, zstd_frame
 
 GEOMETRY, ORDER = (0, 0, 0), (1, 1, 0)
 LAST_LAYER = 1
-# Places of the arrays in Testing/Data/golden/kd_arrays.bspc.
+# Places of the arrays in Testing/Data/frozen_1.0/kd_arrays.bspc.
 FLOAT32, INT8, UINT8, BIT, STRING = 0, 2, 3, 10, 11
 
 
@@ -104,7 +104,7 @@ def predictive_rules(good: bytes) -> Iterator[BadFile]:
 
 
 def array_rules(good: bytes) -> Iterator[BadFile]:
-    """Section 14, of Testing/Data/golden/kd_arrays.bspc."""
+    """Section 14, of Testing/Data/frozen_1.0/kd_arrays.bspc."""
     cases = PayloadCases(good)
     n = 144
     cases.array("an array without a payload", UINT8, b"")
@@ -119,6 +119,11 @@ def array_rules(good: bytes) -> Iterator[BadFile]:
     cases.array("bytes: a row that ends early", UINT8, b"\1\0\1" + bytes(4 * n - 1))
     cases.array("bytes: a row that goes on", UINT8, b"\1\0\1" + bytes(4 * n + 1))
     cases.array("bytes: a row in a frame that is none", UINT8, b"\1\0\x09" + bytes(9))
+    for what, frame in (
+        ("two frames", zstd_frame(bytes(n)) + zstd_frame(bytes(3 * n))),
+        ("a frame of a window above 2^23", zstd_frame(bytes(4 * n), window=0x69)),
+    ):
+        cases.array(f"bytes: a row in {what}", UINT8, b"\1\0" + varint(len(frame)) + frame)
     cases.array("bytes: a row that is longer than its payload", UINT8, b"\1\0" + varint(1 << 30))
     cases.array("quick: an unknown domain", UINT8, b"\2\3" + bytes(8))
     cases.array("quick: reserved flags", UINT8, b"\2\x10" + bytes(8))
@@ -209,6 +214,8 @@ def mesh_rules(good: bytes) -> Iterator[BadFile]:
     cases.set("a Mesh block that goes on", mesh_blocks=[block + b"\0"])
     cases.set("a Mesh block that ends early", mesh_blocks=[block[:-1]])
     cases.set("a Mesh block without a mesh", flags=draft.flags & ~64)
+    cases.set("an optional block in front of the Mesh block", before_mesh=[(200, b"")])
+    cases.set("another content of the cells", mesh_blocks=[block[:5] + bytes(4) + block[9:]])
     # Raw bits of a fresh range coder stream stand in it as they are: the version, two numbers of
     # length 0, no lines and no vertex cells, "faces", "order kept", then numbers of faces and flags.
     for what, start, kind in (
@@ -219,7 +226,7 @@ def mesh_rules(good: bytes) -> Iterator[BadFile]:
         ("vertex cells that are not one for each point", "00300480", CORRUPT),
     ):
         cells = bytes.fromhex(start).ljust(8, b"\0")
-        changed = block[:5] + varint(len(cells)) + cells
+        changed = block[:9] + varint(len(cells)) + cells
         cases.set(f"mesh: {what}", kind, mesh_blocks=[changed])
     yield from cases.files
 

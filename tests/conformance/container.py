@@ -94,8 +94,14 @@ class MeshBlock:
         reader = Reader(content)
         self.first_tile, self.tiles = reader.varint(), reader.varint()
         self.counts = [reader.varint() for _ in range(3)]
+        require(all(c < 1 << 60 for c in self.counts), "too many cells")
+        cells = sum(self.counts)
+        self.content = reader.unsigned(checksum_width(16 * cells))
         self.cells = reader.bytes(reader.varint())
-        self.values = [reader.bytes(reader.varint()) for _ in record.arrays]
+        self.value_contents, self.values = [], []
+        for array in record.arrays:
+            self.value_contents.append(reader.unsigned(array.content_width(cells)))
+            self.values.append(reader.bytes(reader.varint()))
         reader.finish()
 
 
@@ -240,7 +246,7 @@ class File:
         require(data and SIGNATURE.startswith(bytes(data[:8])), "no signature", "not bspc")
         self.reader.bytes(8)
         self.major, self.minor = self.reader.u8(), self.reader.u8()
-        require(self.major == 0, "unknown major version", "unsupported")
+        require(self.major == 1, "unknown major version", "unsupported")
         kind, content = self._block(covered_before=10)
         require(kind == HEAD, "no head")
         self.head = Head(content)
@@ -306,10 +312,11 @@ class File:
     def _read_streaming(self) -> None:
         self._require_end_block()
         self.tiles = []
-        index = None
+        index, optional = None, False
         while index is None:
             start = self.reader.position
             kind, content = self._block()
+            require(kind not in (TILE, MESH) or not optional, "a block behind optional ones")
             if kind == TILE:
                 require(not self.mesh_blocks, "a tile behind the mesh")
                 record = Reader(content)
@@ -327,6 +334,7 @@ class File:
                 require(records == [t.record for t in self.tiles], "index and tiles differ")
             else:
                 _require_optional(kind)
+                optional = True
         kind, content = self._block()
         require(kind == END and len(content) == 8, "no end block")
         require(int.from_bytes(content, "little") == index, "the end block names another index")

@@ -12,7 +12,7 @@ from container import METHODS, File
 from elementary import require
 from mesh_cells import centres, decode_cells
 from tiles import DecodedTile, values_as_bytes
-from xxh3 import xxh3
+from xxh3 import checksum_width, xxh3
 
 
 class Row:
@@ -49,6 +49,15 @@ class Row:
 
     def hash(self) -> str:
         return f"{xxh3(b''.join(self.parts)):016x}"
+
+
+def checksum_of_cells(sorts: tuple) -> int:
+    numbers: list[int] = []
+    for cells in sorts:
+        numbers += [len(cell) for cell in cells]
+        numbers += [point for cell in cells for point in cell]
+    width = checksum_width(16 * sum(len(cells) for cells in sorts))
+    return xxh3(struct.pack(f"<{len(numbers)}I", *numbers)) % (1 << 8 * width)
 
 
 class Content:
@@ -127,11 +136,15 @@ class Content:
             surface = len(tiles) == 1 and METHODS[tiles[0].method] == "surface"
             cells = decode_cells(block.cells, own, self.head.grid, surface)
             require([len(c) for c in cells] == block.counts, "a block has other cells than it says")
+            require(checksum_of_cells(cells) == block.content, "the cells are not as their checksum says")
             for all_of_sort, new in zip(sorts, cells):
                 all_of_sort += [[first + i for i in cell] for cell in new]
             layer = Layer(centres(own, [c for new in cells for c in new]), 0, None)
             for a, (array, payload) in enumerate(zip(arrays, block.values)):
                 tuples = ArrayPayload(layer, array.scalar_type, array.components).decode(payload, [])
+                width = 8 * array.content_width(len(tuples))
+                found = xxh3(values_as_bytes(array, tuples)) % (1 << width)
+                require(found == block.value_contents[a], "values of cells are not as their checksum says")
                 for sort, new in enumerate(cells):
                     values[a][sort] += tuples[: len(new)]
                     tuples = tuples[len(new) :]

@@ -36,6 +36,12 @@ def block(kind: int, content: bytes, before: bytes = b"") -> bytes:
     return framed + checksum(before + framed, len(content)).to_bytes(checksum_width(len(content)), "little")
 
 
+def zstd_frame(content: bytes, window: int = 0x50, descriptor: int = 0) -> bytes:
+    """A frame with one raw block; by default its window has 2^20 bytes."""
+    block_header = (len(content) << 3 | 1).to_bytes(3, "little")
+    return bytes.fromhex("28B52FFD") + bytes([descriptor, window]) + block_header + content
+
+
 class TileDraft:
     """The fields of a tile record, each as its bytes, and the payloads of the chunks."""
 
@@ -109,6 +115,9 @@ class Draft:
         self.tile_count: bytes | None = None
         self.head_tail = b""
         self.mesh_blocks = list(file.mesh_contents)
+        # Blocks behind the first tile, in front of the Mesh blocks and behind them.
+        self.behind_first: list[tuple[int, bytes]] = []
+        self.before_mesh: list[tuple[int, bytes]] = []
         self.before_index: list[tuple[int, bytes]] = []
         self.trailing: list[tuple[int, bytes]] = [(END, bytes(8))] if head.trailing else []
         self.index: bytes | None = None
@@ -129,7 +138,8 @@ class Draft:
     def bytes(self) -> bytes:
         start = self.signature + self.version
         out = start + block(HEAD, self.head_content(), start)
-        meshes = b"".join(block(MESH, m) for m in self.mesh_blocks)
+        meshes = b"".join(block(*b) for b in self.before_mesh)
+        meshes += b"".join(block(MESH, m) for m in self.mesh_blocks)
         if not self.flags & 32:
             columns = sorted({c for t in self.tiles for c in t.chunks})
             for column in columns:
@@ -142,6 +152,8 @@ class Draft:
             out += block(TILE, tile.record())
             for column in sorted(tile.chunks):
                 out += with_checksum(tile.chunks[column])
+            if tile is self.tiles[0]:
+                out += b"".join(block(*b) for b in self.behind_first)
         out += meshes + b"".join(block(*b) for b in self.before_index)
         offset = len(out)
         out += block(INDEX, self._table() if self.index is None else self.index)

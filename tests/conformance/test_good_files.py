@@ -6,6 +6,7 @@ The second one leaves out what takes it long unless CONFORMANCE_ALL is set.
 from __future__ import annotations
 
 import glob
+import hashlib
 import os
 import subprocess
 import sys
@@ -17,6 +18,12 @@ from elementary import FormatError
 
 SET = os.path.join(os.path.dirname(__file__), "..", "..", "Testing", "Data", "conformance")
 LIST = os.path.join(SET, "good.txt")
+FROZEN = os.path.join(SET, "..", "frozen_1.0")
+SUMS = os.path.join(FROZEN, "SHA256SUMS")
+# Of that list. It may grow, when a feature of version 1.0 turns out to have no file; nothing that
+# it has may go or change.
+SUM_OF_SUMS = "21f74ffca803e4c2033cb32087feaf06ec044c4bf4bb5529e845bd90bb9b438a"
+FOLDERS = (FROZEN, os.path.join(SET, "..", "golden"), SET)
 
 
 def listed() -> dict[str, str]:
@@ -43,10 +50,24 @@ def read(path: str) -> bytes:
         return stream.read()
 
 
+def all_files() -> list[str]:
+    """Paths from the set's folder."""
+    found = [f for folder in FOLDERS for f in glob.glob(os.path.join(folder, "*.bspc"))]
+    return [os.path.relpath(f, SET) for f in found]
+
+
 class GoodFiles(unittest.TestCase):
-    def test_list_has_all_golden_files(self):
-        golden = {os.path.basename(f) for f in glob.glob(os.path.join(SET, "../golden/*.bspc"))}
-        self.assertEqual(golden, {os.path.basename(p) for p in listed() if "golden/" in p})
+    def test_list_has_all_files(self):
+        self.assertEqual(sorted(all_files()), sorted(listed()))
+
+    def test_frozen_files_are_as_they_were(self):
+        with open(SUMS, "rb") as stream:
+            sums = stream.read()
+        self.assertEqual(hashlib.sha256(sums).hexdigest(), SUM_OF_SUMS)
+        told = dict(reversed(line.split()) for line in sums.decode().splitlines())
+        names = [os.path.basename(f) for f in glob.glob(os.path.join(FROZEN, "*.bspc"))]
+        found = {n: hashlib.sha256(read(os.path.join(FROZEN, n))).hexdigest() for n in names}
+        self.assertEqual(found, told)
 
     def test_library_finds_the_content_that_is_told(self):
         wanted = listed()
@@ -77,8 +98,7 @@ class GoodFiles(unittest.TestCase):
 
 
 def write_list(program: str) -> None:
-    paths = [os.path.relpath(f, SET) for f in glob.glob(os.path.join(SET, "../golden/*.bspc"))]
-    paths += [os.path.relpath(f, SET) for f in glob.glob(os.path.join(SET, "*.bspc"))]
+    paths = all_files()
     with open(LIST, "w", encoding="utf-8") as lines:
         for path, content in sorted(contents_by_library(program, paths).items()):
             if content[0] != "good":

@@ -9,7 +9,7 @@ import unittest
 
 PLUGIN = os.environ["BSPC_PLUGIN"]
 SOURCE = os.environ["BSPC_SOURCE"]
-GOLDEN = os.path.join(SOURCE, "Testing", "Data", "golden")
+GOLDEN = os.path.join(SOURCE, "Testing", "Data", "frozen_1.0")
 
 # An X server that does not start anew when the first client leaves, which would shut out the next.
 SCREEN = ["xvfb-run", "-a", "-s", "-screen 0 1280x1024x24 -noreset"]

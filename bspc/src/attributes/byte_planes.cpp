@@ -6,6 +6,8 @@
 #include <new>
 #include <string>
 
+#include "container/zstd_frame.h"
+
 namespace bspc::attributes {
 
 namespace {
@@ -57,6 +59,7 @@ void PlaneReader::read(container::ByteReader& in, Span<std::uint8_t> row) {
     return;
   }
   const ByteView frame = in.bytes(kind);
+  container::checkFrame(in, frame);
   const std::size_t size =
       ZSTD_decompressDCtx(context_.get(), row.data(), row.size(), frame.data(), frame.size());
   if (ZSTD_isError(size) != 0) {
@@ -81,10 +84,9 @@ Bytes PlaneReader::readClaimed(container::ByteReader& in, std::uint64_t size,
     return Bytes(plain.begin(), plain.end());
   }
   const ByteView frame = in.bytes(kind);
-  // Every level of zstd but its "ultra" ones is content with this window.
-  constexpr int kWindowLog = 23;
+  container::checkFrame(in, frame);
   ZSTD_DCtx_reset(context_.get(), ZSTD_reset_session_and_parameters);
-  ZSTD_DCtx_setParameter(context_.get(), ZSTD_d_windowLogMax, kWindowLog);
+  ZSTD_DCtx_setParameter(context_.get(), ZSTD_d_windowLogMax, container::kFrameWindowLog);
   constexpr std::uint64_t kStep = 65536;
   Bytes result;
   ZSTD_inBuffer input{frame.data(), frame.size(), 0};

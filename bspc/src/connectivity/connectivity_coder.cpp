@@ -223,26 +223,31 @@ class MeshEncoder {
   void finishFaces(const PreparedFaces& prepared, const FaceTruth& truth) {
     std::vector<std::uint32_t> order = truth.order();
     order.insert(order.end(), prepared.irregular.begin(), prepared.irregular.end());
-    if (wishes_.keepOrder) {
-      encodeOrder(order, truth.firstCorners(), prepared.flipped);
-    } else {
+    std::vector<std::uint32_t> starts(order.size(), 0);
+    result_.decoded.faces = codedFaces(order, truth.firstCorners(), prepared.flipped, starts);
+    if (!wishes_.keepOrder) {
       result_.faceOrder = std::move(order);
+      return;
     }
+    std::vector<std::uint32_t> places(order.size());
+    for (std::uint32_t k = 0; k < order.size(); ++k) places[order[k]] = k;
+    FaceOrder<SymbolWriter>(coder_, result_.decoded.faces).code(places, starts);
+    result_.decoded.faces = renumbered(cells_.faces);
   }
 
-  /// `order`: the faces as they were coded; `firstCorners`: of the regular ones, where that began.
-  void encodeOrder(const std::vector<std::uint32_t>& order,
+  /// The faces as a decoder has them that knows no order. `order`: the faces as they were coded;
+  /// `firstCorners`: of the regular ones, where that began; `starts` gets for each face that was
+  /// given which corner of the coded one it begins with.
+  Cells codedFaces(const std::vector<std::uint32_t>& order,
                    const std::vector<std::uint32_t>& firstCorners,
-                   const std::vector<std::uint8_t>& flipped) {
-    const Cells& given = cells_.faces;
+                   const std::vector<std::uint8_t>& flipped,
+                   std::vector<std::uint32_t>& starts) const {
+    const Cells given = renumbered(cells_.faces);
     Cells coded;
-    std::vector<std::uint32_t> places(order.size());
-    std::vector<std::uint32_t> starts(order.size(), 0);
     std::vector<std::uint32_t> face;
     for (std::uint32_t k = 0; k < order.size(); ++k) {
       const std::uint32_t i = order[k];
       face.assign(given[i].begin(), given[i].end());
-      places[i] = k;
       if (k < firstCorners.size()) {
         // Turned around and back again, a face that was begun at its corner j ends there.
         const auto size = static_cast<std::uint32_t>(face.size());
@@ -253,7 +258,7 @@ class MeshEncoder {
       }
       coded.add(face);
     }
-    FaceOrder<SymbolWriter>(coder_, coded).code(places, starts);
+    return coded;
   }
 
   /// Irregular faces keep their sense, and are coded by their vertices.
@@ -320,7 +325,8 @@ class MeshEncoder {
   }
 
   void encodeLines() {
-    Cells lines = renumbered(cells_.lines);
+    Cells& lines = result_.decoded.lines;
+    lines = renumbered(cells_.lines);
     const VertexIndex index(places_);
     PlainCells<SymbolWriter>(coder_, places_, index, PlainCells<SymbolWriter>::Shape::Line)
         .code(lines.size(), lines, noCheck);
@@ -328,12 +334,12 @@ class MeshEncoder {
 
   void encodeVertices() {
     const Cells given = renumbered(cells_.vertices);
+    Cells& sorted = result_.decoded.vertices;
     if (wishes_.keepOrder) {
-      Cells cells = given;
-      VertexCells<SymbolWriter>(coder_, points_.points.size()).code(cells.size(), cells, noCheck);
+      sorted = given;
+      VertexCells<SymbolWriter>(coder_, points_.points.size()).code(sorted.size(), sorted, noCheck);
       return;
     }
-    Cells sorted;
     std::vector<std::uint32_t> order(given.size());
     std::iota(order.begin(), order.end(), 0U);
     std::vector<std::vector<std::uint32_t>> cells(given.size());

@@ -35,6 +35,8 @@ struct EncodedMesh {
   /// Only if points were to be renumbered and were: the payload is for points of which number j is
   /// pointOrder[j] of the input. Only points at the same place change.
   std::vector<std::uint32_t> pointOrder;
+  /// What a decoder returns.
+  MeshCells decoded;
 };
 
 /// Codes cells. Without keepOrder, cells come back in an order of the coder's, faces from any of

@@ -6,6 +6,7 @@
 
 #include "attributes/array_coder.h"
 #include "bspc/grid.h"
+#include "bspc/mesh.h"
 #include "bspc/span.h"
 #include "container/byte_writer.h"
 
@@ -45,5 +46,11 @@ unsigned contentChecksumWidth(std::uint64_t points);
 std::uint64_t valuesChecksum(const attributes::ArrayShape& shape,
                              const attributes::ArrayValues& values, std::uint64_t points);
 unsigned valuesChecksumWidth(const attributes::ArrayShape& shape, std::uint64_t points);
+
+/// The checksum of the cells over the points of a Mesh block, in decoded order: for vertex cells,
+/// lines and faces how many points each cell has, and then these, as little-endian 32-bit numbers.
+/// `width` is that of 16 bytes a cell.
+std::uint64_t cellsChecksum(const MeshCells& cells);
+unsigned cellsChecksumWidth(std::uint64_t cells);
 
 }  // namespace bspc::container

@@ -61,12 +61,15 @@ void ContainerReader::readPreamble() {
     throw Error(ErrorCode::Truncated, "the file ends early, after " + std::to_string(have) +
                                           " bytes, inside its signature");
   }
-  if (preamble[kSignature.size()] != kVersionMajor) {
-    throw Error(ErrorCode::Unsupported, "the file has format version " +
-                                            std::to_string(preamble[kSignature.size()]) + "." +
-                                            std::to_string(preamble[kSignature.size() + 1]) +
-                                            ", and this program reads version " +
-                                            std::to_string(kVersionMajor) + "; use a newer one");
+  const unsigned major = preamble[kSignature.size()];
+  if (major != kVersionMajor) {
+    throw Error(
+        ErrorCode::Unsupported,
+        "the file has format version " + std::to_string(major) + "." +
+            std::to_string(preamble[kSignature.size() + 1]) +
+            (major < kVersionMajor ? ", a draft of before version 1.0; encode it anew"
+                                   : ", and this program reads version " +
+                                         std::to_string(kVersionMajor) + "; use a newer one"));
   }
   versionMinor_ = preamble[kSignature.size() + 1];
 }
@@ -221,7 +224,7 @@ void ContainerReader::findMeshBlocks(std::uint64_t& offset) {
 MeshBlock ContainerReader::meshBlock(std::size_t number) const {
   const Block block = readBlock(*source_, meshBlocks_[number], 0, "a block of cells");
   ByteReader in(block.content, "a block of cells", block.contentOffset);
-  return readMeshBlock(in, head_.mesh.arrays.size());
+  return readMeshBlock(in, head_.mesh.arrays);
 }
 
 void ContainerReader::readTrailingBlocks(std::uint64_t offset, std::uint64_t end) const {

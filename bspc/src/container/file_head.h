@@ -18,8 +18,8 @@ namespace bspc::container {
 /// First bytes of every file. As PNG's, they do not survive a transfer that strips the top bit,
 /// changes line ends or stops at a control-Z.
 constexpr std::array<std::uint8_t, 8> kSignature{0x8B, 'B', 'S', 'P', '\r', '\n', 0x1A, '\n'};
-constexpr unsigned kVersionMajor = 0;
-constexpr unsigned kVersionMinor = 1;
+constexpr unsigned kVersionMajor = 1;
+constexpr unsigned kVersionMinor = 0;
 /// Signature, major, minor.
 constexpr std::size_t kPreambleSize = kSignature.size() + 2;
 

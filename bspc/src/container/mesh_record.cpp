@@ -4,6 +4,7 @@
 
 #include "bspc/error.h"
 #include "container/array_table.h"
+#include "container/checksum.h"
 
 namespace bspc::container {
 
@@ -27,6 +28,10 @@ CellCounts readCounts(ByteReader& in) {
     in.fail("an impossible number of cells");
   }
   return counts;
+}
+
+attributes::ArrayShape shapeOf(const ArrayDescription& array) {
+  return {array.type, array.components, array.semantic};
 }
 
 Bytes readBytes(ByteReader& in) {
@@ -71,23 +76,34 @@ MeshRecord readMeshRecord(ByteReader& in, const DecodeLimits& limits) {
   return mesh;
 }
 
-Bytes writeMeshBlock(const MeshBlock& block) {
+Bytes writeMeshBlock(const MeshBlock& block, const std::vector<ArrayDescription>& arrays) {
   ByteWriter out;
   out.varint(block.firstTile);
   out.varint(block.tiles);
   writeCounts(out, block.counts);
+  out.unsignedLittle(block.contentChecksum, cellsChecksumWidth(block.counts.total()));
   writeBytes(out, block.cells);
-  for (const Bytes& payload : block.arrays) writeBytes(out, payload);
+  for (std::size_t a = 0; a < arrays.size(); ++a) {
+    out.unsignedLittle(block.arrays[a].contentChecksum,
+                       valuesChecksumWidth(shapeOf(arrays[a]), block.counts.total()));
+    writeBytes(out, block.arrays[a].payload);
+  }
   return out.take();
 }
 
-MeshBlock readMeshBlock(ByteReader& in, std::size_t arrays) {
+MeshBlock readMeshBlock(ByteReader& in, const std::vector<ArrayDescription>& arrays) {
   MeshBlock block;
   block.firstTile = in.varint();
   block.tiles = in.varint();
   block.counts = readCounts(in);
+  block.contentChecksum = in.unsignedLittle(cellsChecksumWidth(block.counts.total()));
   block.cells = readBytes(in);
-  for (std::size_t a = 0; a < arrays; ++a) block.arrays.push_back(readBytes(in));
+  for (const ArrayDescription& array : arrays) {
+    MeshBlock::Array& read = block.arrays.emplace_back();
+    read.contentChecksum =
+        in.unsignedLittle(valuesChecksumWidth(shapeOf(array), block.counts.total()));
+    read.payload = readBytes(in);
+  }
   in.expectEnd();
   return block;
 }

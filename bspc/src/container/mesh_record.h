@@ -36,12 +36,17 @@ struct MeshBlock {
   std::uint64_t firstTile = 0;
   std::uint64_t tiles = 0;
   CellCounts counts;
-  Bytes cells;                ///< payload of connectivity
-  std::vector<Bytes> arrays;  ///< payloads, in the order of the record
+  std::uint64_t contentChecksum = 0;  ///< of the cells that are decoded
+  Bytes cells;                        ///< payload of connectivity
+  struct Array {
+    std::uint64_t contentChecksum = 0;  ///< of the values that are decoded
+    Bytes payload;
+  };
+  std::vector<Array> arrays;  ///< in the order of the record
 };
 
-Bytes writeMeshBlock(const MeshBlock& block);
-/// `arrays`: how many the record has.
-MeshBlock readMeshBlock(ByteReader& in, std::size_t arrays);
+/// `arrays`: those of the record.
+Bytes writeMeshBlock(const MeshBlock& block, const std::vector<ArrayDescription>& arrays);
+MeshBlock readMeshBlock(ByteReader& in, const std::vector<ArrayDescription>& arrays);
 
 }  // namespace bspc::container

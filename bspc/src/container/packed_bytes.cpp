@@ -7,6 +7,7 @@
 #include <string>
 
 #include "bspc/error.h"
+#include "container/zstd_frame.h"
 
 namespace bspc::container {
 
@@ -18,6 +19,7 @@ using Stream = std::unique_ptr<ZSTD_DStream, decltype(&ZSTD_freeDStream)>;
 
 Bytes unpack(ByteReader& in, std::uint64_t maxBytes) {
   const ByteView packed = in.bytes(in.remaining());
+  checkFrame(in, packed);
   const Stream stream(ZSTD_createDStream(), &ZSTD_freeDStream);
   Bytes bytes;
   Bytes piece(std::size_t{1} << 16);
@@ -38,7 +40,6 @@ Bytes unpack(ByteReader& in, std::uint64_t maxBytes) {
     if (left == 0) break;
     if (input.pos == input.size && output.pos < output.size) in.fail("compressed bytes end early");
   }
-  if (input.pos != input.size) in.fail("bytes behind the compressed ones");
   return bytes;
 }
 

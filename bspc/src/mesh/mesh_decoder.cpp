@@ -7,6 +7,7 @@
 #include "attributes/array_coder.h"
 #include "bspc/error.h"
 #include "connectivity/connectivity_coder.h"
+#include "container/checksum.h"
 #include "geometry/surface/surface_method.h"
 #include "mesh/mesh_encoder.h"
 
@@ -85,6 +86,9 @@ class Reader {
         cells.lines.size() != block.counts.lines || cells.faces.size() != block.counts.faces) {
       throw Error(ErrorCode::Corrupt, "a block of cells has others than it says");
     }
+    if (container::cellsChecksum(cells) != block.contentChecksum) {
+      failContent("cells of the mesh");
+    }
     readArrays(block, own, cells);
     if (bytesOf(points_.mesh) + 2 * bytesOf(cells) > memory_) failLimit();
     append(cells.vertices, firstPoint_, points_.mesh.vertices);
@@ -115,6 +119,13 @@ class Reader {
                 "raise it if the file is to be trusted");
   }
 
+  [[noreturn]] static void failContent(const std::string& what) {
+    throw Error(ErrorCode::Corrupt,
+                "the " + what +
+                    " are not those that were written (wrong content checksum): the file is "
+                    "damaged, or this machine does not calculate as it should");
+  }
+
   void readArrays(const container::MeshBlock& block, Span<const GridPoint> own,
                   const MeshCells& cells) {
     if (arrays_.empty()) return;
@@ -125,8 +136,13 @@ class Reader {
     for (std::size_t a = 0; a < arrays_.size(); ++a) {
       const ArrayDescription& description = file_.head().mesh.arrays[a];
       attributes::ArrayValues values;
-      attributes::decodeArray({description.type, description.components, description.semantic},
-                              block.arrays[a], places, memoryLeft(), values);
+      const attributes::ArrayShape shape{description.type, description.components,
+                                         description.semantic};
+      attributes::decodeArray(shape, block.arrays[a].payload, places, memoryLeft(), values);
+      if (container::valuesChecksum(shape, values, centres.size()) !=
+          block.arrays[a].contentChecksum) {
+        failContent("values of the array \"" + description.name + "\" beside the cells");
+      }
       arrayBytes_ += values.numbers.size() + values.strings.size() * sizeof(std::string);
       arrays_[a].push_back(std::move(values));
     }

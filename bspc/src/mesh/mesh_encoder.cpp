@@ -11,6 +11,7 @@
 #include "bspc/error.h"
 #include "connectivity/connectivity_coder.h"
 #include "connectivity/mesh_preparation.h"
+#include "container/checksum.h"
 #include "grid/float_grid.h"
 
 namespace bspc {
@@ -151,23 +152,20 @@ Bytes MeshEncoder::encode(const GridFit& fit, unsigned effort, std::uint64_t til
   container::MeshBlock block;
   block.tiles = tiles;
   block.counts = {cells.vertices.size(), cells.lines.size(), cells.faces.size()};
+  block.contentChecksum = container::cellsChecksum(coded.decoded);
   block.cells = std::move(coded.payload);
   report.meshBytes = block.cells.size();
   const std::vector<std::uint64_t> cellOrder = orderOfAll(cells, coded);
   if (!points_.cellArrays().empty()) {
-    encodeArrays(points, cells, cellOrder, effort, block, report);
+    encodeArrays(cellCentres(points, coded.decoded), cellOrder, effort, block, report);
   }
   if (options_.wantOrder) report.cellOrder = cellOrder;
-  return container::writeMeshBlock(block);
+  return container::writeMeshBlock(block, record().arrays);
 }
 
-void MeshEncoder::encodeArrays(const std::vector<GridPoint>& points, const MeshCells& cells,
+void MeshEncoder::encodeArrays(const std::vector<GridPoint>& centres,
                                const std::vector<std::uint64_t>& cellOrder, unsigned effort,
                                container::MeshBlock& block, EncodeReport& report) const {
-  const std::vector<GridPoint> given = cellCentres(points, cells);
-  std::vector<GridPoint> centres;
-  centres.reserve(given.size());
-  for (const std::uint64_t i : cellOrder) centres.push_back(given[i]);
   attributes::TilePoints places(centres);
   const ArraySource source(points_.cellArrays(), 0, false);
   for (std::size_t a = 0; a < source.size(); ++a) {
@@ -176,7 +174,8 @@ void MeshEncoder::encodeArrays(const std::vector<GridPoint>& points, const MeshC
     attributes::EncodedArray coded =
         attributes::encodeArray(source.shape(a), values, places, wishesFor(description, effort));
     report.cellArrays.push_back({description.name, coded.payload.size(), coded.greatestError});
-    block.arrays.push_back(std::move(coded.payload));
+    block.arrays.push_back({container::valuesChecksum(source.shape(a), values, centres.size()),
+                            std::move(coded.payload)});
   }
 }
 

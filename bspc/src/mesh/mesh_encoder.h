@@ -37,7 +37,7 @@ class MeshEncoder {
   std::vector<GridPoint> orderedPoints(const GridFit& fit,
                                        const std::vector<std::uint64_t>& order) const;
   MeshCells renumbered(const std::vector<std::uint64_t>& order) const;
-  void encodeArrays(const std::vector<GridPoint>& points, const MeshCells& cells,
+  void encodeArrays(const std::vector<GridPoint>& centres,
                     const std::vector<std::uint64_t>& cellOrder, unsigned effort,
                     container::MeshBlock& block, EncodeReport& report) const;
 
