@@ -10,5 +10,6 @@ void addDecodeCommand(CLI::App& app);
 void addInfoCommand(CLI::App& app);
 void addVerifyCommand(CLI::App& app);
 void addJoinCommand(CLI::App& app);
+void addBenchCommand(CLI::App& app);
 
 }  // namespace bspc::cli

@@ -1,40 +1,32 @@
-#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
 
-#include "bspc/decoder.h"
 #include "bspc/encoder.h"
 #include "bspc/error.h"
 #include "bspc/stream_encoder.h"
 #include "cli/commands.h"
-#include "cli/input_file.h"
 #include "cli/interrupts.h"
 #include "cli/model_files.h"
 #include "cli/naming.h"
 #include "cli/output_file.h"
 #include "cli/progress_bar.h"
 #include "cli/scratch_file.h"
+#include "cli/source_options.h"
 #include "cli/text.h"
 #include "cli/usage_error.h"
-#include "formats/array_tuples.h"
+#include "cli/whole_points.h"
 #include "formats/wording.h"
 
 namespace bspc::cli {
 
 namespace {
 
-struct EncodeArguments {
-  std::string input;
+struct EncodeArguments : SourceArguments {
   std::string output;
-  std::string from;
   std::string method;
-  std::string grid = "auto";
   std::string layout;
-  unsigned bits = 0;
-  double precision = 0;
-  bool exact = false;
   std::string effort = "auto";
   double seconds = 0;
   unsigned layers = 0;
@@ -43,34 +35,9 @@ struct EncodeArguments {
   double memory = 1;
   std::uint64_t stopPoints = 0;
   std::optional<unsigned> stopLevel;
-  ContentArguments content;
-  bool keepOrder = false;
-  bool anyOrder = false;
-  bool originalIds = false;
-  bool dropNonFinite = false;
   bool force = false;
   bool quiet = false;
 };
-
-GridRequest gridRequest(const EncodeArguments& args) {
-  const int wishes = (args.bits != 0 ? 1 : 0) + (args.precision != 0 ? 1 : 0) +
-                     (args.grid != "auto" ? 1 : 0) + (args.exact ? 1 : 0);
-  if (wishes > 1) throw UsageError("--bits, --precision, --exact and --grid exclude each other");
-  GridRequest request;
-  if (args.bits != 0) {
-    request = GridRequest::withBits(args.bits);
-  } else if (args.precision != 0) {
-    request = GridRequest::withPrecision(args.precision);
-  } else if (args.exact) {
-    request = GridRequest::exactFloats();
-  } else if (args.grid != "auto") {
-    InputFile file(args.grid);
-    request = naming(file.name(),
-                     [&file] { return GridRequest::onGrid(Decoder(file.source()).info().grid); });
-  }
-  request.dropNonFinite = args.dropNonFinite;
-  return request;
-}
 
 /// Empty for the encoder's choice.
 std::optional<unsigned> effortOf(const EncodeArguments& args) {
@@ -90,9 +57,6 @@ std::optional<unsigned> effortOf(const EncodeArguments& args) {
 }
 
 EncodeOptions encodeOptions(const EncodeArguments& args) {
-  if (args.keepOrder && args.anyOrder) {
-    throw UsageError("--keep-order and --any-order exclude each other");
-  }
   EncodeOptions options;
   options.grid = gridRequest(args);
   options.effort = effortOf(args);
@@ -109,12 +73,6 @@ EncodeOptions encodeOptions(const EncodeArguments& args) {
       !args.layout.empty() ? args.layout : (args.output == "-" ? "streaming" : "progressive");
   options.layout = layout == "streaming" ? Layout::Streaming : Layout::Progressive;
   return options;
-}
-
-/// Rows of an organised cloud are only rows in their order.
-bool keepsOrder(const EncodeArguments& args, const formats::ModelInfo& info) {
-  if (args.keepOrder || args.anyOrder) return args.keepOrder;
-  return info.isOrganised && !args.content.positionsOnly && !args.dropNonFinite;
 }
 
 std::string bitsText(std::uint64_t bytes, std::uint64_t points) {
@@ -172,23 +130,10 @@ void printReport(const EncodeArguments& args, const std::string& name, const Enc
   std::cerr << '\n';
 }
 
-/// Reads the points with their arrays and cells and encodes them at once: streams have no cells.
+/// Streams have no cells: a mesh is read whole.
 EncodeReport encodeWhole(ModelPoints& points, ByteSink& sink, const EncodeOptions& options) {
-  constexpr std::size_t kBlock = std::size_t{1} << 16;
-  const std::size_t pointBytes = 3 * scalarSize(points.type());
-  std::vector<std::uint8_t> positions;
-  std::vector<ArrayValues> values = formats::emptyArrays(points.arrays());
-  for (std::size_t got = kBlock; got > 0;) {
-    const std::size_t size = positions.size();
-    positions.resize(size + kBlock * pointBytes);
-    got = points.read(positions.data() + size, values, kBlock);
-    positions.resize(size + got * pointBytes);
-  }
-  PointSetView view(positions.data(), points.type(), positions.size() / pointBytes, 0);
-  for (const ArrayValues& array : values) view.addArray(array.view());
-  const MeshCells mesh = points.takeMesh();
-  if (!mesh.empty()) view.setMesh(&mesh);
-  return encode(view, sink, options);
+  const WholePoints whole(points);
+  return encode(whole.view(), sink, options);
 }
 
 void runEncode(const EncodeArguments& args) {
@@ -228,52 +173,6 @@ std::string knownMethods() {
   return names;
 }
 
-void addContentOptions(CLI::App& command, EncodeArguments& args) {
-  constexpr auto kGroup = "Content";
-  ContentArguments& content = args.content;
-  command
-      .add_option("--arrays", content.arrays.arrays, "Keep these arrays only; `info` lists names")
-      ->option_text("NAME,...")
-      ->group(kGroup);
-  command.add_option("--no-array", content.arrays.without, "Leave out an array (may be repeated)")
-      ->option_text("NAME")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->group(kGroup);
-  command
-      .add_option("--array-precision", content.arrays.precisions,
-                  "Let values of a floating-point array differ by at most\n"
-                  "TOL, normals by TOL degrees (may be repeated)")
-      ->option_text("NAME=TOL")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->group(kGroup);
-  command
-      .add_flag("--positions-only", content.positionsOnly, "Leave out everything but the positions")
-      ->group(kGroup);
-  command.add_flag("--no-faces", content.noFaces, "Leave out faces and edges")->group(kGroup);
-  command
-      .add_flag("--drop-other", content.dropOther,
-                "Leave out whatever a .bspc file cannot hold, such as lists")
-      ->group(kGroup);
-  command
-      .add_flag("--drop-nonfinite", args.dropNonFinite,
-                "Leave out points with NaN or infinite coordinates")
-      ->group(kGroup);
-  command
-      .add_flag("--keep-order", args.keepOrder,
-                "Keep the order of the points (the default for rows of a PCD file)")
-      ->group(kGroup);
-  command.add_flag("--any-order", args.anyOrder, "Do not keep it")->group(kGroup);
-  command
-      .add_flag("--original-ids", args.originalIds,
-                "Add the array OriginalPointIds: where in the input each point was")
-      ->group(kGroup);
-  command.add_option("--crs", content.crs, "The coordinate reference system, as WKT or EPSG:25832")
-      ->option_text("TEXT")
-      ->group(kGroup);
-}
-
 }  // namespace
 
 void addEncodeCommand(CLI::App& app) {
@@ -287,11 +186,6 @@ void addEncodeCommand(CLI::App& app) {
   const auto methods = [](const std::string& name) {
     return methodFromName(name) ? std::string()
                                 : "there is no such method; known: " + knownMethods();
-  };
-  const auto positive = [](const std::string& text) {
-    double value = 0;
-    const bool good = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0;
-    return good ? std::string() : "must be a finite number above 0";
   };
   command->add_option("--method", args->method, "How to code positions: " + knownMethods())
       ->type_name("NAME")
@@ -311,7 +205,7 @@ void addEncodeCommand(CLI::App& app) {
       ->add_option("--seconds", args->seconds,
                    "The greatest effort that takes about so long at most on one core")
       ->option_text("S")
-      ->check(positive)
+      ->check(positiveNumber)
       ->group("Coding");
   command->add_option("--layers", args->layers, "Layers of detail, 1 to 32 (default: by size)")
       ->option_text("N")
@@ -327,7 +221,7 @@ void addEncodeCommand(CLI::App& app) {
                    "Memory to use, in GiB (default 1); a larger set goes through a temporary\n"
                    "file and gets the streaming layout")
       ->option_text("GIB")
-      ->check(positive)
+      ->check(positiveNumber)
       ->group("Coding");
   command->add_option("--threads", args->threads, "Threads (default: as many as the machine has)")
       ->option_text("N")
@@ -347,33 +241,9 @@ void addEncodeCommand(CLI::App& app) {
                    "Lossy: so do cells that L cuts have made (bsp, kd)")
       ->option_text("L")
       ->group("Coding");
-  command
-      ->add_option("--bits", args->bits,
-                   "Quantise: the largest extent spans 2^BITS - 1 steps (1 to 32)")
-      ->option_text("BITS")
-      ->check(CLI::Range(1U, 32U))
-      ->group("Grid");
-  command
-      ->add_option("--precision", args->precision,
-                   "Quantise: step in units of the data; the error is at most half of it")
-      ->check(positive)
-      ->type_name("STEP")
-      ->group("Grid");
-  command
-      ->add_flag("--exact", args->exact,
-                 "Keep every bit of floating-point coordinates, also where they lie\n"
-                 "on no lattice")
-      ->group("Grid");
-  command
-      ->add_option("--grid", args->grid,
-                   "auto (the default) finds the lattice that the points\n"
-                   "lie on and keeps them exactly, else to float precision;\n"
-                   "FILE.bspc takes that file's, so that neighbours meet")
-      ->type_name("auto|FILE.bspc")
-      ->group("Grid");
+  addGridOptions(*command, *args);
   addContentOptions(*command, *args);
-  command->add_option("--from", args->from, "Format of the input where its name does not tell")
-      ->type_name("ply|obj|off|xyz|csv|las|pcd");
+  addFromOption(*command, *args);
   command->add_flag("-f,--force", args->force, "Replace an existing output file");
   command->add_flag("-q,--quiet", args->quiet, "Print nothing but errors");
   command->callback([args] { runEncode(*args); });

@@ -24,6 +24,7 @@ int run(int argc, char** argv) {
       "  bspc verify scan.bspc --against scan.ply\n"
       "  bspc decode scan.bspc back.ply\n"
       "  bspc info scan.bspc\n"
+      "  bspc bench scan.ply\n"
       "`bspc COMMAND --help` explains a command.\n\n"
       "Exit codes: 0 done, 1 failed (the reason is on standard error), 2 wrong usage.");
   bspc::cli::addEncodeCommand(app);
@@ -31,6 +32,7 @@ int run(int argc, char** argv) {
   bspc::cli::addInfoCommand(app);
   bspc::cli::addVerifyCommand(app);
   bspc::cli::addJoinCommand(app);
+  bspc::cli::addBenchCommand(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
