@@ -17,6 +17,9 @@ target_compile_options(bspc_compiler_options INTERFACE
   -Wall -Wextra -Wconversion -Wshadow -Wno-psabi -ffp-contract=off -fno-fast-math
   $<$<BOOL:${BSPC_WARNINGS_AS_ERRORS}>:-Werror>
 )
+if(BSPC_BUILD_FUZZERS)
+  target_compile_options(bspc_compiler_options INTERFACE -fsanitize=fuzzer-no-link)
+endif()
 if(BSPC_SANITIZE)
   target_compile_options(bspc_compiler_options INTERFACE
     -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer

@@ -9,6 +9,8 @@ build_packages=(
 )
 lint_packages=(clang-format clang-tidy)
 compiler_packages=(clang)
+# libFuzzer, and what tells the lines of a stack.
+fuzz_packages=(clang libclang-rt-dev llvm)
 peer_packages=(libdraco-dev draco)
 plot_packages=(python3-matplotlib)
 # dpkg-dev finds out what a package depends on; the last three render without a screen.
@@ -25,8 +27,8 @@ paraview_python_folder=build/paraview-python
 
 usage() {
   cat <<'END'
-Usage: scripts/setup.sh [--lint] [--vtk] [--openmesh] [--paraview] [--compilers] [--peers] [--plots]
-                        [--for-download PACKAGE]
+Usage: scripts/setup.sh [--lint] [--vtk] [--openmesh] [--paraview] [--compilers] [--fuzz] [--peers]
+                        [--plots] [--for-download PACKAGE]
 
 Installs the Debian 12 packages that building and testing bspc needs; does nothing where they are
 installed. Needs root or sudo only if something is missing.
@@ -37,6 +39,7 @@ installed. Needs root or sudo only if something is missing.
   --paraview              also ParaView, for the preset paraview; unpacks ParaView's Python modules
                           into build/paraview-python
   --compilers             also clang, for scripts/compilers.sh
+  --fuzz                  also clang with libFuzzer, for scripts/fuzz.sh
   --peers                 also the coders that benchmarks/peers compares bspc with
   --plots                 also Matplotlib, for the plots of benchmarks
   --for-download PACKAGE  also make sure that apt-get knows PACKAGE, without installing it
@@ -61,6 +64,7 @@ while (($# > 0)); do
     --vtk) wanted+=("${vtk_packages[@]}") ;;
     --openmesh) wanted+=("${openmesh_packages[@]}") ;;
     --compilers) wanted+=("${compiler_packages[@]}") ;;
+    --fuzz) wanted+=("${fuzz_packages[@]}") ;;
     --peers) wanted+=("${peer_packages[@]}") ;;
     --plots) wanted+=("${plot_packages[@]}") ;;
     --for-download)
