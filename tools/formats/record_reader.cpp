@@ -51,14 +51,15 @@ RecordReader::Result RecordReader::readBlock(std::uint8_t* positions, Span<Array
   const bool ends = !in_.ensure(count * layout_.bytes);
   if (ends) result = {in_.available() / layout_.bytes, Status::EndOfStream, 0};
   const std::size_t size = scalarSize(layout_.positionType);
-  for (std::size_t k = 0; k < 3; ++k) {
+  // Without any record there may be no buffer that offsets could count from.
+  for (std::size_t k = 0; k < 3 && result.records > 0; ++k) {
     const RecordLayout::Coordinate& from = layout_.xyz[k];
     const ScalarSource source{in_.data() + from.offset, from.type, layout_.bytes, layout_.swapped};
     const ScalarTarget target{positions + k * size, layout_.positionType, pointBytes_};
     const std::size_t exact = convertScalars(source, target, result.records);
     if (exact < result.records) result = {exact, Status::Inexact, k};
   }
-  appendArrays(values, result.records);
+  if (result.records > 0) appendArrays(values, result.records);
   const bool takesRest = result.status == Status::EndOfStream;
   in_.consume(takesRest ? in_.available() : result.records * layout_.bytes);
   return result;
