@@ -1,6 +1,6 @@
 #include "formats/las_records.h"
 
-#include <algorithm>
+#include <map>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -106,15 +106,15 @@ std::vector<LasRecord> lasRecordsOf(const Metadata& metadata) {
     bytes.push_back(0);
     return bytes;
   }();
+  std::map<std::string_view, const ArrayValues*> payloads;
+  for (const ArrayValues& array : metadata.fieldData) payloads.emplace(array.name, &array);
   for (const auto& [key, text] : metadata.entries) {
     if (key.rfind(kKeyStem, 0) != 0) continue;
     std::optional<LasRecord> record = parseRecord(text);
     if (!record) continue;
-    const auto payload =
-        std::find_if(metadata.fieldData.begin(), metadata.fieldData.end(),
-                     [&, &name = key](const ArrayValues& a) { return a.name == name; });
-    if (payload != metadata.fieldData.end()) {
-      record->payload = payload->values;
+    const auto payload = payloads.find(key);
+    if (payload != payloads.end()) {
+      record->payload = payload->second->values;
     } else if (record->is(kLasProjection, kLasWkt) && needsWkt) {
       record->payload = wkt;
       needsWkt = false;

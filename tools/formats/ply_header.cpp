@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -119,9 +121,10 @@ class HeaderReader {
   void readElement() {
     PlyElement element;
     element.name = expectWord("the name of an element");
-    for (const PlyElement& other : header_.elements) {
-      if (other.name == element.name) text_.fail("a second element " + quoted(element.name));
+    if (!elementNames_.insert(element.name).second) {
+      text_.fail("a second element " + quoted(element.name));
     }
+    propertyNames_.clear();
     element.count = text_.number<std::uint64_t>(expectWord("the number of elements"), [&] {
       return "the number of elements " + quoted(element.name);
     });
@@ -152,8 +155,8 @@ class HeaderReader {
       property.type = *type;
     }
     property.name = expectWord("the name of the property");
-    for (const PlyProperty& other : header_.elements.back().properties) {
-      if (other.name == property.name) text_.fail("a second property " + quoted(property.name));
+    if (!propertyNames_.insert(property.name).second) {
+      text_.fail("a second property " + quoted(property.name));
     }
     header_.elements.back().properties.push_back(std::move(property));
   }
@@ -201,6 +204,8 @@ class HeaderReader {
 
   TextScanner& text_;
   PlyHeader header_;
+  std::set<std::string> elementNames_;
+  std::set<std::string> propertyNames_;  ///< of the last element
   bool hasFormat_ = false;
 };
 

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <ctime>
 
 #include "formats/las_records.h"
 #include "tools/formats/format_test_support.h"
@@ -126,6 +127,22 @@ TEST(Ply, HugeCountsCostNothing) {
       expectInMessage(failure(text, Format::Ply), {"ends"});
     }
   }
+}
+
+/// What looks at each property for each property needs minutes for this.
+TEST(Ply, ManyPropertiesCostLittle) {
+  std::string properties;
+  for (int i = 0; i < 200000; ++i) properties += "property uchar p" + std::to_string(i) + "\n";
+  const std::clock_t start = std::clock();
+  const Model model = read(
+      header("ascii", "element vertex 0\n" + kXyz + "element other 0\n" + properties), Format::Ply);
+  EXPECT_EQ(model.size(), 0U);
+  EXPECT_LT((std::clock() - start) / CLOCKS_PER_SEC, 20);
+  expectInMessage(
+      failure(header("ascii", "element other 0\n" + properties + "property int p7\n"), Format::Ply),
+      {"second property", "p7"});
+  expectInMessage(failure(header("ascii", "element a 0\nelement b 0\nelement a 0\n"), Format::Ply),
+                  {"second element"});
 }
 
 template <class T>
