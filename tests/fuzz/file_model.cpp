@@ -216,35 +216,4 @@ Bytes putTogether(const std::vector<Piece>& pieces) {
   return file;
 }
 
-Bytes withRightContents(ByteView file) {
-  std::optional<FileModel> model = takeApart(file);
-  if (!model) return {};
-  const container::TileLayout layout = model->head.layout();
-  for (std::size_t t = 0; t < model->head.tiles.size(); ++t) {
-    TileRecord& record = model->head.tiles[t];
-    const auto* method = geometry::findGeometryMethod(static_cast<Method>(record.method));
-    if (method == nullptr || record.version > method->version()) continue;
-    geometry::TileToDecode tile;
-    tile.version = record.version;
-    tile.points = record.points;
-    tile.extent = record.extent;
-    tile.layers = model->head.layers - record.lacking;
-    for (unsigned l = record.lacking; l < model->head.layers; ++l) {
-      tile.payloads.emplace_back(model->chunks[t][layout.column(l, container::kGeometryPart)]);
-    }
-    const DecodeLimits limits = smallLimits();
-    tile.maxPoints = limits.points;
-    tile.maxBytes = limits.memoryBytes;
-    tile.maxDepth = limits.depth;
-    try {
-      const geometry::DecodedTile decoded = method->decode(tile, [](std::uint64_t) {});
-      if (decoded.points.size() != record.points) continue;
-      record.contentChecksum = container::contentChecksum(decoded.points);
-    } catch (const Error&) {
-      continue;
-    }
-  }
-  return putTogether(piecesOf(std::move(*model)));
-}
-
 }  // namespace bspc::fuzz

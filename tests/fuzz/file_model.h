@@ -44,7 +44,8 @@ std::vector<Piece> piecesOf(FileModel model);
 /// The bytes of a file with all checksums right.
 Bytes putTogether(const std::vector<Piece>& pieces);
 
-/// The same file with the checksums of the decoded points right, where its tiles can be decoded.
+/// The same file with the checksums of the decoded points and cells right, and the numbers of
+/// cells, where they can be decoded.
 Bytes withRightContents(ByteView file);
 
 }  // namespace bspc::fuzz

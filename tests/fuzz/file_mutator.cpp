@@ -298,7 +298,7 @@ class Mutator {
     container::MeshBlock block;
     try {
       container::ByteReader in(content, "cells", 0);
-      block = container::readMeshBlock(in, model_.head.mesh.arrays.size());
+      block = container::readMeshBlock(in, model_.head.mesh.arrays);
     } catch (const Error&) {
       return false;
     }
@@ -319,7 +319,8 @@ class Mutator {
       case 4:
       case 5:
         if (!block.arrays.empty()) {
-          changeSome(block.arrays[static_cast<std::size_t>(random_.below(block.arrays.size()))]);
+          changeSome(
+              block.arrays[static_cast<std::size_t>(random_.below(block.arrays.size()))].payload);
           break;
         }
         [[fallthrough]];
@@ -331,7 +332,7 @@ class Mutator {
     all.vertices += block.counts.vertices - before.vertices;
     all.lines += block.counts.lines - before.lines;
     all.faces += block.counts.faces - before.faces;
-    content = container::writeMeshBlock(block);
+    content = container::writeMeshBlock(block, model_.head.mesh.arrays);
     return true;
   }
 
