@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 #include <random>
+#include <utility>
 
 #include "geometry/geometry_method.h"
 #include "support/array_sets.h"
@@ -57,6 +58,57 @@ std::vector<double> noise(unsigned count, std::uint64_t range) {
   return xyz;
 }
 
+/// What a depth camera sees of a ball before a wall, in no order of rows, and some points beside.
+std::vector<double> rangeImage(std::int64_t width, std::int64_t height) {
+  std::vector<double> xyz;
+  const auto add = [&](std::int64_t x, std::int64_t y, std::int64_t z) {
+    xyz.insert(xyz.end(), {static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)});
+  };
+  for (std::int64_t i = 0; i < width * height; ++i) {
+    const std::int64_t pixel = i * 1009 % (width * height);
+    const std::int64_t u = pixel % width - width / 2;
+    const std::int64_t v = pixel / width - height / 2;
+    if (pixel % 41 == 7) continue;
+    std::int64_t rank = 40 + (3 * u + 2 * v) / 20;
+    const std::int64_t toBall = (u - 10) * (u - 10) + (v + 5) * (v + 5);
+    if (toBall < 200) rank = 12 + toBall / 60;
+    const std::int64_t z = 900 + 13 * rank;
+    // Pixels are seen at multiples of 1/70, the middle of the picture at 2000.
+    add((2 * u * z + 280070) / 140, (2 * v * z + 280070) / 140, z);
+  }
+  for (std::int64_t i = 0; i < 12; ++i)
+    add(1500 + i * 377 % 900, 1600 + i * 211 % 700, 950 + 31 * i);
+  return xyz;
+}
+
+/// Copies of points behind two planes, a few of them a step off or missing.
+std::vector<double> mirrored(unsigned count) {
+  std::vector<double> xyz;
+  for (unsigned i = 0; i < count; ++i) {
+    const double x = i * 37 % 50;
+    const double y = i * 53 % 80;
+    const double z = i * 29 % 30;
+    xyz.insert(xyz.end(), {x, y, z, 101 - x, y, z + (i % 8 == 3 ? 1 : 0)});
+    if (i % 5 != 2) xyz.insert(xyz.end(), {x, 170 - y, z, 101 - x, 170 - y, z});
+  }
+  return xyz;
+}
+
+/// A lattice that is no multiple of the grid's steps.
+std::vector<double> skewLattice(unsigned side) {
+  std::vector<double> xyz;
+  for (unsigned y = 0; y < side; ++y) {
+    for (unsigned x = 0; x < side; ++x) {
+      const unsigned hill = (x * (side - x) + y * (side - y)) / 2;
+      for (const unsigned v : {x, y, hill}) {
+        const unsigned place = (v * 2371 + 500) / 1000;
+        xyz.push_back(place);
+      }
+    }
+  }
+  return xyz;
+}
+
 /// Smooth and random values of several types.
 std::vector<ArrayValues> goldenArrays(std::size_t count) {
   std::vector<ArrayValues> arrays = arraysOfAllTypes(count);
@@ -99,6 +151,13 @@ std::vector<GoldenFile> goldenFiles() {
         ScalarType::Float64, Layout::Progressive, 2, any);
     add("crowd", noise(3000, 12), ScalarType::Float32, Layout::Progressive, 1, any);
     add("one_point", {1, 2, 3}, ScalarType::Float32, Layout::Progressive, 1, any);
+    if (method == Method::Predictive) {
+      for (const auto& [what, xyz] :
+           {std::pair{"range_image", rangeImage(76, 60)}, std::pair{"mirrored", mirrored(12)},
+            std::pair{"lattice", skewLattice(20)}}) {
+        add(what, xyz, ScalarType::Float32, Layout::Progressive, 1, any);
+      }
+    }
     if (method == Method::Fast || method == Method::Kd) {
       GoldenFile* arrays =
           add("arrays", terrain(12, 1, 0), ScalarType::Float32, Layout::Progressive, 2, any);

@@ -25,7 +25,14 @@ from bad_container import (
     streaming_rules,
     tile_rules,
 )
-from bad_payloads import array_rules, fast_rules, mesh_rules, partition_rules, predictive_rules
+from bad_payloads import (
+    array_rules,
+    fast_rules,
+    mesh_rules,
+    partition_rules,
+    predictive_rules,
+    surface_rules,
+)
 from content import Content
 from elementary import FormatError
 
@@ -54,6 +61,7 @@ def all_bad_files() -> Iterator[BadFile]:
     yield from array_rules(good("kd_arrays"))
     yield from predictive_rules(good("predictive_terrain_bits"))
     yield from mesh_rules(good("mesh"))
+    yield from surface_rules(good("surface_mesh"), good("random_surface_647"))
 
 
 def second_decoder(data: bytes) -> str:

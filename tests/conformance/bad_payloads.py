@@ -6,7 +6,11 @@ import struct
 from typing import Iterator
 
 from bad_container import CORRUPT, UNSUPPORTED, BadFile, Cases
+from container import File
 from draft import Draft, varint, zstd_frame
+from elementary import FormatError
+from scripted import Script, adaptive_number, number
+from surface import Surface
 
 GEOMETRY, ORDER = (0, 0, 0), (1, 1, 0)
 LAST_LAYER = 1
@@ -100,6 +104,55 @@ def predictive_rules(good: bytes) -> Iterator[BadFile]:
     ):
         cases.payload(f"predictive: {what}", GEOMETRY, bytes.fromhex(start) + bytes(40))
     cases.payload("predictive: no payload", GEOMETRY, b"")
+    yield from cases.files
+
+
+def _surface_stream(points: int, values: list[int]) -> bytes:
+    """The start of a payload of method surface, up to what must be refused in it."""
+    script = Script(values)
+    try:
+        Surface(script, points)
+    except FormatError:
+        return script.stream()
+    raise AssertionError("nothing is wrong with this surface")
+
+
+def surface_rules(good: bytes, layers: bytes) -> Iterator[BadFile]:
+    """Section 16, of files of one tile, one of them with coarse layers."""
+    cases = PayloadCases(good)
+    draft = Draft(good)
+    cases.tile("surface: an unknown version", UNSUPPORTED, coder=varint(7 << 4 | 1))
+    cases.tile("surface: 2^32 - 16 points in a tile", points=varint((1 << 32) - 16), content=bytes(8))
+    cases.payload("surface: no payload", GEOMETRY, b"")
+    points = File(good).tiles[0].points
+    one_face, new_edge, another = [*number(1), 1], [1, 1], [0]
+    for what, values in (
+        ("a first edge of no vertex", [*one_face, 0]),
+        ("a vertex twice in a face", [*one_face, *new_edge, *another, 2, 0]),
+        ("a first edge that has a face", [*number(2), 1, *new_edge, 1, 1, 1, 1, 0, 0, 0, 1]),
+        ("a way along gates that ends early", [*one_face, *new_edge, *another, 0, *adaptive_number(0)]),
+        ("a way of 1,026 gates", [*one_face, *new_edge, *another, 1, *adaptive_number(1025)]),
+        ("a face of more corners than points", [*number(1), 0, *new_edge, 11, *number(points - 10)]),
+        ("a face of two corners", [*number(1), 0, *new_edge, 2]),
+    ):
+        cases.payload(f"surface: {what}", GEOMETRY, _surface_stream(points, values))
+
+    def fewer(changed: Draft) -> None:
+        changed.tiles[0].overrides["points"] = b"\2"
+        changed.tiles[0].chunks[GEOMETRY] = _surface_stream(2, [*one_face, *new_edge, 1])
+
+    cases.add("surface: more vertices than points", fewer)
+
+    def kept_order(changed: Draft) -> None:
+        changed.records = [(2, b""), *changed.records]
+        for tile in changed.tiles:
+            tile.with_arrays = True
+            tile.overrides["array_flags"] = b"\2"
+
+    cases.add("surface: its faces in a file that keeps the order", kept_order)
+    yield from cases.files
+    cases = PayloadCases(layers)
+    cases.payload("surface: a coarse layer with a payload", GEOMETRY, b"\0")
     yield from cases.files
 
 

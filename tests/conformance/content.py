@@ -8,9 +8,10 @@ from __future__ import annotations
 import struct
 
 from arrays import ArrayPayload, Layer
-from container import METHODS, File
+from container import File
 from elementary import require
 from mesh_cells import centres, decode_cells
+from surface import SurfaceMethod
 from tiles import DecodedTile, values_as_bytes
 from xxh3 import checksum_width, xxh3
 
@@ -132,8 +133,9 @@ class Content:
         for block in self.file.mesh_blocks:
             first = starts[block.first_tile]
             own = points[first : starts[block.first_tile + block.tiles]]
-            tiles = self.file.tiles[block.first_tile : block.first_tile + block.tiles]
-            surface = len(tiles) == 1 and METHODS[tiles[0].method] == "surface"
+            tiles = [t.geometry for t in self.tiles[block.first_tile : block.first_tile + block.tiles]]
+            one = tiles[0] if len(tiles) == 1 and not self.head.keeps_order else None
+            surface = one.faces if isinstance(one, SurfaceMethod) else None
             cells = decode_cells(block.cells, own, self.head.grid, surface)
             require([len(c) for c in cells] == block.counts, "a block has other cells than it says")
             require(checksum_of_cells(cells) == block.content, "the cells are not as their checksum says")

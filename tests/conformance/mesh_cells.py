@@ -237,22 +237,36 @@ def _vertex_cells(coder: RangeDecoder, count: int, points: int) -> Cells:
     return cells
 
 
+def _faces_around(
+    coder: RangeDecoder, surface: Cells, places: list[Position]
+) -> Cells:
+    """The regular faces, which the points came along, and the irregular ones."""
+    irregular, flips = number(coder), coder.raw(1)
+    faces, bits, last = [], AdaptiveBits(), 0
+    for face in surface:
+        last = coder.adaptive(bits[last]) if flips else 0
+        faces.append(face[::-1] if last else list(face))
+    return faces + PlainCells(coder, Vertices(places), line=False).decode(irregular)
+
+
 def decode_cells(
-    payload: bytes, points: list[Point], grid: Grid, surface: bool
+    payload: bytes, points: list[Point], grid: Grid, surface: Cells | None
 ) -> tuple[Cells, Cells, Cells]:
-    """Vertex cells, lines and faces over the points of a block, which may be of method surface."""
+    """Vertex cells, lines and faces over the points of a block. `surface`: the faces that these
+    came along, if their only tile is of that method."""
     coder = RangeDecoder(payload)
     version = coder.raw(4)
     require(version <= 1, "an unknown version of the cells of a mesh", "unsupported")
     vertex_count, line_count = number(coder), number(coder)
     has_faces, keeps_order = coder.raw(1), coder.raw(1)
-    if version == 1 and has_faces:
-        require(surface, "the faces are those of no surface")
-        raise NotImplementedError("faces of method surface")
     places = places_of(points, grid)
     faces: Cells = []
     if has_faces:
-        faces = _faces(coder, points, places)
+        if version == 1:
+            require(surface is not None, "the faces are those of no surface")
+            faces = _faces_around(coder, surface or [], places)
+        else:
+            faces = _faces(coder, points, places)
         if keeps_order:
             faces = FaceOrder(coder, faces).decode()
     lines = PlainCells(coder, Vertices(places), line=True).decode(line_count)

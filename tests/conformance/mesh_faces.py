@@ -31,6 +31,30 @@ class AdaptiveNumber:
         return -(value >> 1) - 1 if value & 1 else value >> 1
 
 
+class CornerNumbers:
+    """How many corners faces have."""
+
+    def __init__(self, coder: RangeDecoder, front: Front, most: int):
+        self.coder, self.front, self.most = coder, front, most
+        self.models: dict[tuple[int, int], AdaptiveSymbol] = {}
+        self.last = 0
+
+    def decode(self, across: int | None) -> int:
+        """Of a face with that one across."""
+
+        def class_of_size(size: int) -> int:
+            return 0 if size < 3 else min(size - 2, 5)
+
+        beside = class_of_size(len(self.front.faces[across])) if across is not None else 0
+        model = self.models.setdefault((beside, self.last), AdaptiveSymbol(12))
+        size = self.coder.symbol(model)
+        if size == 11:
+            size += number(self.coder)
+        self.last = class_of_size(size)
+        require(3 <= size <= self.most, "a wrong number of corners")
+        return size
+
+
 class GateSymbols:
     """Borders, and which candidate of a ranking comes."""
 
@@ -139,8 +163,7 @@ class FaceDecoder:
         self.ranker = Ranker(self.front)
         self.symbols = GateSymbols(coder, self.front)
         self.bits = AdaptiveBits()
-        self.sizes: dict[tuple[int, int], AdaptiveSymbol] = {}
-        self.last_size = 0
+        self.corners = CornerNumbers(coder, self.front, len(vertices.places))
         self.flipped: list[int] = []
         self.queue: list[list[Edge]] = [[] for _ in range(24)]
 
@@ -204,24 +227,11 @@ class FaceDecoder:
                     continue
             return ranking
 
-    def _size(self, across: int | None) -> int:
-        def class_of_size(size: int) -> int:
-            return 0 if size < 3 else min(size - 2, 5)
-
-        beside = class_of_size(len(self.front.faces[across])) if across is not None else 0
-        model = self.sizes.setdefault((beside, self.last_size), AdaptiveSymbol(12))
-        size = self.coder.symbol(model)
-        if size == 11:
-            size += number(self.coder)
-        self.last_size = class_of_size(size)
-        require(3 <= size <= len(self.vertices.places), "a wrong number of corners")
-        return size
-
     def _face(self, ranking: Ranking) -> None:
         gate = ranking.gate
         u, v = gate.edge
         across = self.front.face_at(v, u)
-        size = 3 if self.front.triangles else self._size(across)
+        size = 3 if self.front.triangles else self.corners.decode(across)
         face = [u, v]
         for i in range(2, size):
             closing = i + 1 == size

@@ -54,6 +54,13 @@ class Vertices:
         return found
 
 
+class Unplaced:
+    """Vertices that come as faces do, without places yet."""
+
+    def __init__(self) -> None:
+        self.awake: dict[int, bool] = {}
+
+
 class Gate:
     """Where the next vertex of a face is asked for: behind u → v."""
 
@@ -68,15 +75,24 @@ class Gate:
 
 
 class Front:
-    def __init__(self, vertices: Vertices, triangles: bool):
+    def __init__(self, vertices: "Vertices | Unplaced", triangles: bool):
         self.vertices, self.triangles = vertices, triangles
-        n = len(vertices.places)
         self.faces: list[list[int]] = []
         self.edges: dict[Edge, int] = {}  # the face at a directed edge, or BORDER
-        self.leaving: list[list[int]] = [[] for _ in range(n)]  # open gates, the newest last
-        self.entering: list[list[int]] = [[] for _ in range(n)]
-        self.valence = [0] * n
-        self.border_begins, self.border_ends = [False] * n, [False] * n
+        self.leaving: list[list[int]] = []  # open gates of each vertex, the newest last
+        self.entering: list[list[int]] = []
+        self.valence: list[int] = []
+        self.border_begins: list[bool] = []
+        self.border_ends: list[bool] = []
+        for _ in vertices.awake:
+            self.add_vertex()
+
+    def add_vertex(self) -> None:
+        self.leaving.append([])
+        self.entering.append([])
+        self.valence.append(0)
+        self.border_begins.append(False)
+        self.border_ends.append(False)
 
     def free(self, u: int, v: int) -> bool:
         return (u, v) not in self.edges
@@ -138,7 +154,5 @@ class Front:
         self.entering[v].remove(u)
 
     def _settle(self, v: int) -> None:
-        if self.gates_at(v):
-            self.vertices.awake[v] = True
-        elif self.valence[v]:
-            self.vertices.awake[v] = False
+        if self.gates_at(v) or self.valence[v]:
+            self.vertices.awake[v] = bool(self.gates_at(v))

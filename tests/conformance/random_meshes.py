@@ -64,6 +64,21 @@ def mesh(rng: random.Random) -> tuple[list[Point], list[list[int]]]:
     return spoiled(rng, *patch(rng))
 
 
+def relief(rng: random.Random) -> tuple[list[Point], list[list[int]]]:
+    """A patch far from the origin, finely measured: neighbours are many grid steps apart."""
+    points, faces = mesh(rng)
+    scale, noise = rng.choice((1.0, 40.0, 3000.0)), rng.choice((0.0, 1.0, 30.0))
+    tilt, round_off = rng.uniform(-1, 1), rng.choice((0, 0, 2))
+
+    def moved(p: Point) -> Point:
+        x, y, z = (scale * v + rng.gauss(0, noise) for v in p)
+        return round(x, round_off), round(y, round_off), round(z + tilt * x + 0.001 * y * y, round_off)
+
+    # Points at the same place stay there.
+    places = {p: moved(p) for p in points}
+    return [places[p] for p in points], faces
+
+
 def ply_header(faces: list[list[int]]) -> list[str]:
     return [f"element face {len(faces)}", "property list uchar int vertex_indices"]
 

@@ -145,9 +145,29 @@ def _grid_options(rng: random.Random, method: str) -> list[str]:
     return ["--exact"] if wish == 2 else []
 
 
+def _surface(rng: random.Random) -> tuple[bytes, list[str]]:
+    """A mesh whose vertices are coded along its faces."""
+    points, faces = random_meshes.relief(rng)
+    if rng.randrange(4) == 0:  # vertices without faces
+        points = points + [tuple(float(rng.randrange(99)) for _ in range(3)) for _ in range(rng.randrange(9))]
+    data, _ = ply(rng, points, faces)
+    options = ["--method", "surface", *_grid_options(rng, "surface")]
+    for chance, more in (
+        (4, ["--layers", "3"]),
+        (4, ["--layout", "streaming"]),
+        (6, ["--keep-order"]),
+        (6, ["--tile-points", "30"]),
+    ):
+        if rng.randrange(chance) == 0:
+            options += more
+    return data, options
+
+
 def model(seed: int) -> tuple[bytes, list[str]]:
     """The bytes of a PLY file and options of `bspc encode`."""
     rng = random.Random(seed)
+    if seed % 10 == 7:
+        return _surface(rng)
     method = rng.choice(METHODS)
     many = {"bsp": (300,), "fast": (600, 3000, 4096, 9000)}.get(method, (600, 1500, 5000))
     n = rng.choice((1, 2, 5, 40, 41, 150, rng.choice(many)))

@@ -13,6 +13,7 @@ from neighbours import Point
 from orders import decoded_order
 from partition_methods import Kd, Occupancy
 from predictive import Predictive
+from surface import SurfaceMethod
 from words import WordType
 from xxh3 import checksum, xxh3
 
@@ -33,7 +34,7 @@ def geometry_of(tile: Tile):
         return Occupancy(*arguments, name == "octree")
     if name == "predictive":
         return Predictive(*arguments)
-    raise NotImplementedError(f"geometry of method {name}")
+    return SurfaceMethod(*arguments)
 
 
 def values_as_bytes(array, tuples: list) -> bytes:
@@ -52,6 +53,7 @@ class DecodedTile:
         self.counts: list[list[int]] = []
         self.array_orders: list[list[int]] = []
         geometry = geometry_of(tile)
+        self.geometry = geometry
         for own, layer in enumerate(range(tile.lacking, layers)):
             points, counts = geometry.layer(tile.chunks[layer, 0, 0], layer == layers - 1)
             require(len(points) == tile.representatives[own], "a layer has other points than told")

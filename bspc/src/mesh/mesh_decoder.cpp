@@ -100,7 +100,8 @@ class Reader {
   /// The faces that the points of the block's only tile were coded along.
   Cells facesOfTile(const container::MeshBlock& block, std::uint64_t memory) const {
     const auto tile = static_cast<std::size_t>(block.firstTile);
-    if (block.tiles != 1 || file_.tiles()[tile].method != static_cast<unsigned>(Method::Surface)) {
+    if (block.tiles != 1 || file_.head().keepsOrder ||
+        file_.tiles()[tile].method != static_cast<unsigned>(Method::Surface)) {
       throw Error(ErrorCode::Corrupt, "the faces are those of a tile that has none");
     }
     const std::size_t column =
