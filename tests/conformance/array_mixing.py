@@ -8,7 +8,7 @@ from bisect import bisect_left
 from elementary import Reader, require
 from mixed_bits import MixedBits
 from neighbours import MEAN8, Predictor, Ranks, size_class
-from range_coder import RangeDecoder
+from range_coder import RangeDecoder, stream_of
 from words import WordType
 
 MASK = 0xFFFFFFFF
@@ -48,7 +48,7 @@ class Mixing:
             words = self._value_list(reader)
         self.tuples = [[min(bisect_left(words, w), len(words) - 1) for w in t] for t in self.known]
         self.values = len(words)
-        coder = RangeDecoder(reader.rest())
+        coder = stream_of(reader.rest())
         for rank, near, weights in Predictor(MEAN8).weighted(self.ranks):
             self._point(coder, rank, near, weights)
         coder.finish()
@@ -155,7 +155,7 @@ class Categories:
         self.words = [reader.unsigned(self.kind.size) for _ in range(count)]
         self.symbols = count + self.escapes
         require(self.symbols >= 1, "no symbols")
-        self.coder = RangeDecoder(reader.rest())
+        self.coder = stream_of(reader.rest())
         tuples = self._in_input_order() if in_order else self._by_rank()
         self.coder.finish()
         if differences:

@@ -6,7 +6,7 @@ import math
 
 from elementary import Reader, require
 from neighbours import Predictor, Ranks, size_class
-from range_coder import AdaptiveBits, RangeDecoder
+from range_coder import AdaptiveBits, RangeDecoder, stream_of
 from sphere import Chart, Sphere
 from words import UnitPrediction, WordType
 
@@ -35,7 +35,7 @@ class Residual:
         require(domain not in (NUMBERS, UNIT) or self.kind.is_float, "numbers of integers")
         require(domain != UNIT or self.components == 3, "unit of other than three components")
         require((domain == SPHERE) == (self.sphere is not None) or domain == WORDS, "sphere of no sphere")
-        coder = RangeDecoder(reader.rest())
+        coder = stream_of(reader.rest())
         for rank, near, weights in predictor.weighted(self.ranks):
             self._point(coder, domain, rank, near[: len(weights)], weights)
         coder.finish()

@@ -9,7 +9,7 @@ from functools import cached_property
 import zstd
 from array_mixing import Categories, Mixing
 from array_residual import Residual
-from elementary import BIT, STRING, UINT8, UINT16, UINT32, UINT64, Reader, require
+from elementary import BIT, STRING, UINT8, UINT16, UINT32, UINT64, Reader, reader_of, require
 from neighbours import Point, Ranks
 from sphere import Sphere
 from words import UnitPrediction, WordType
@@ -65,8 +65,8 @@ class ArrayPayload:
         self.kind = None if scalar_type == STRING else WordType(scalar_type)
         self.sphere = sphere
 
-    def decode(self, payload: bytes, known: list[list], inner: bool = False) -> list[list]:
-        reader = Reader(payload)
+    def decode(self, payload: bytes | Reader, known: list[list], inner: bool = False) -> list[list]:
+        reader = reader_of(payload)
         if self.layer.new == 0:
             require(not payload, "an array of no tuples has bytes")
             return []
@@ -149,7 +149,7 @@ class ArrayPayload:
         scalar_type = UINT8 if size <= 256 else UINT16 if size <= 65536 else UINT32
         inner = ArrayPayload(self.layer, scalar_type, self.components)
         told = [[places.get(text, 0) for text in t] for t in known]
-        numbers = inner.decode(reader.rest(), told, inner=True)
+        numbers = inner.decode(reader.inner(), told, inner=True)
         require(all(v < size for t in numbers for v in t), "a place beyond the table")
         return [[table[v] for v in t] for t in numbers]
 
@@ -189,7 +189,7 @@ class ArrayPayload:
         inner = ArrayPayload(self.layer, scalar_type, self.components)
         told = [[integer(w) for w in t] for t in known]
         result, place = [], 0
-        for numbers in inner.decode(reader.rest(), told, inner=True):
+        for numbers in inner.decode(reader.inner(), told, inner=True):
             words = []
             for v in numbers:
                 whole = (base + v + (1 << 63)) % (1 << 64) - (1 << 63)
@@ -211,7 +211,7 @@ class ArrayPayload:
         inner = ArrayPayload(self.layer, scalar_type, 2, sphere)
         told = [list(sphere.place([self.kind.number(w) for w in t])) for t in known]
         result = []
-        for i, place in enumerate(inner.decode(reader.rest(), told, inner=True)):
+        for i, place in enumerate(inner.decode(reader.inner(), told, inner=True)):
             if i in exceptions:
                 result.append(self.kind.words_in(exceptions[i]))
             else:

@@ -6,7 +6,7 @@ from math import isqrt
 
 from elementary import require
 from partition_methods import CountModels, StopRule
-from range_coder import AdaptiveBit, AdaptiveSymbol, RangeDecoder
+from range_coder import AdaptiveBit, AdaptiveSymbol, RangeDecoder, stream_of
 
 Vector = tuple[int, int, int]
 Edge = tuple[int, int, int, int]  # from, to, face on the left, face on the right
@@ -182,7 +182,7 @@ class Bsp:
         self.cells = [Cell((0, 0, 0), tuple(extent), points, 0, 0, Polyhedron.of_box(extent))]
 
     def layer(self, payload: bytes, last: bool) -> tuple[list[Vector], list[int]]:
-        coder = RangeDecoder(payload)
+        coder = stream_of(payload)
         if not self.started:
             self._read_parameters(coder)
         if last:

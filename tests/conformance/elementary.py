@@ -63,10 +63,16 @@ class Reader:
     """Reads elementary types from bytes, from the first on."""
 
     def __init__(
-        self, data: bytes, position: int = 0, end: int | None = None, short: str = "corrupt"
+        self,
+        data: bytes,
+        position: int = 0,
+        end: int | None = None,
+        short: str = "corrupt",
+        tail: object = None,
     ) -> None:
-        """`short` is the kind of error if the data end early: only those of a file are truncated."""
-        self.data, self.short = data, short
+        """`short` is the kind of error if the data end early: only those of a file are truncated.
+        `tail`: what stands for the rest, in tests that make it while it is read (scripted.py)."""
+        self.data, self.short, self.tail = data, short, tail
         self.position = position
         self.end = len(data) if end is None else end
 
@@ -79,7 +85,12 @@ class Reader:
         return self.data[self.position - size : self.position]
 
     def rest(self) -> bytes:
-        return self.bytes(self.left())
+        rest = self.bytes(self.left())
+        return rest if self.tail is None else self.tail
+
+    def inner(self) -> "Reader":
+        """What is left, as content of its own."""
+        return Reader(self.bytes(self.left()), tail=self.tail)
 
     def u8(self) -> int:
         return self.bytes(1)[0]
@@ -107,3 +118,7 @@ class Reader:
 
     def finish(self) -> None:
         require(self.position == self.end, "content goes on after its end")
+
+
+def reader_of(data: bytes | Reader) -> Reader:
+    return data if isinstance(data, Reader) else Reader(data)

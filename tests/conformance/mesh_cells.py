@@ -8,7 +8,7 @@ from elementary import require
 from grid import AFFINE, RATIONAL, Grid
 from mesh_faces import AdaptiveNumber, FaceDecoder, number
 from mesh_front import Front, Position, Vertices
-from range_coder import AdaptiveBits, AdaptiveSymbol, RangeDecoder
+from range_coder import AdaptiveBits, AdaptiveSymbol, RangeDecoder, stream_of
 
 Point = tuple[int, ...]
 Cells = list[list[int]]
@@ -254,7 +254,7 @@ def decode_cells(
 ) -> tuple[Cells, Cells, Cells]:
     """Vertex cells, lines and faces over the points of a block. `surface`: the faces that these
     came along, if their only tile is of that method."""
-    coder = RangeDecoder(payload)
+    coder = stream_of(payload)
     version = coder.raw(4)
     require(version <= 1, "an unknown version of the cells of a mesh", "unsupported")
     vertex_count, line_count = number(coder), number(coder)

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from bisect import bisect_left
 
-from elementary import Reader, require
+from elementary import Reader, reader_of, require
 from neighbours import Point, Ranks, cells_around
-from range_coder import AdaptiveBits, RangeDecoder
+from range_coder import AdaptiveBits, RangeDecoder, stream_of
 
 
-def decoded_order(payload: bytes, points: list[Point]) -> list[int]:
+def decoded_order(payload: bytes | Reader, points: list[Point]) -> list[int]:
     """For each place of the input, the number of its point in decoded order."""
-    reader = Reader(payload)
+    reader = reader_of(payload)
     code = reader.u8()
     require(code < 16, "an unknown version of a method for orders", "unsupported")
     require(code <= 2, "an unknown method for orders", "unsupported")
@@ -25,7 +25,7 @@ def decoded_order(payload: bytes, points: list[Point]) -> list[int]:
 
 
 def _uniform(payload: bytes, n: int) -> list[int]:
-    coder = RangeDecoder(payload)
+    coder = stream_of(payload)
     left = list(range(n))
     result = [left.pop(coder.uniform(len(left) - 1)) for _ in range(n)]
     coder.finish()
@@ -81,7 +81,7 @@ class Path:
         flags = reader.u8()
         self.momentum, coarser = flags & 3, flags >> 2
         require(self.momentum <= 2 and 1 <= coarser <= 4, "wrong parameters of a path")
-        self.ranks, self.coder = ranks, RangeDecoder(reader.rest())
+        self.ranks, self.coder = ranks, stream_of(reader.rest())
         s = ranks.cut(3)
         self.lists = [CellLists(ranks, s), CellLists(ranks, min(s + coarser, 20))]
         self.left = list(range(len(ranks.positions)))

@@ -8,7 +8,7 @@ each stands for.
 from __future__ import annotations
 
 from elementary import require
-from range_coder import AdaptiveBit, AdaptiveBits, AdaptiveSymbol, RangeDecoder
+from range_coder import AdaptiveBit, AdaptiveBits, AdaptiveSymbol, RangeDecoder, stream_of
 
 Corner = tuple[int, int, int]
 
@@ -112,7 +112,7 @@ class Kd:
         self.cells = [((0, 0, 0), points, 0, 0)]  # lower corner, points, depth, history
 
     def layer(self, payload: bytes, last: bool) -> tuple[list[Corner], list[int]]:
-        coder = RangeDecoder(payload)
+        coder = stream_of(payload)
         if self.stop is None:
             self.stop = StopRule.read(coder)
         if last:
@@ -194,7 +194,7 @@ class Occupancy:
         self.cells = [Node((0, 0, 0), 0, kind, points)]
 
     def layer(self, payload: bytes, last: bool) -> tuple[list[Corner], list[int]]:
-        coder = RangeDecoder(payload)
+        coder = stream_of(payload)
         if last:
             points = []
             for cell in self.cells:

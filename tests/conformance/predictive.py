@@ -5,7 +5,7 @@ from __future__ import annotations
 from elementary import require
 from predictive_sets import Mirror, RangeImage
 from predictive_tree import Point, Tree
-from range_coder import RangeDecoder
+from range_coder import RangeDecoder, stream_of
 
 FLAGS = (
     "quadric", "plane", "parallelograms", "projection", "separate kinds", "two scales",
@@ -59,7 +59,7 @@ class Predictive:
         self.tree: Tree | None = None
 
     def layer(self, payload: bytes, last: bool) -> tuple[list[Point], list[int]]:
-        coder = RangeDecoder(payload)
+        coder = stream_of(payload)
         if self.tree is None:
             self.features = Features(coder)
             self.tree = Tree(self.features, self.extent, self.n)

@@ -138,3 +138,8 @@ class RangeDecoder:
             model.probability -= ((model.probability - 32) * rate) >> 16
         model.age = min(model.age + 1, 95)
         return bit
+
+
+def stream_of(payload: "bytes | RangeDecoder") -> RangeDecoder:
+    """A payload's stream; tests give one that makes its payload (scripted.py)."""
+    return payload if isinstance(payload, RangeDecoder) else RangeDecoder(payload)

@@ -8,7 +8,7 @@ from elementary import require
 from mesh_faces import AdaptiveNumber, CornerNumbers, number
 from mesh_front import Edge, Front, Unplaced
 from predictive_model import Evidence, LayeredMixer
-from range_coder import AdaptiveBits, AdaptiveSymbol, RangeDecoder
+from range_coder import AdaptiveBits, AdaptiveSymbol, RangeDecoder, stream_of
 from reals import Counters, real
 from surface_places import Places, Point
 
@@ -206,7 +206,7 @@ class SurfaceMethod:
             require(not payload, "a coarse layer of method surface has a payload")
             x, y, z = (e // 2 for e in self.extent)
             return [(x, y, z)], [self.n]
-        coder = RangeDecoder(payload)
+        coder = stream_of(payload)
         surface = Surface(coder, self.n)
         self.faces = surface.front.faces
         points = Places(coder, self.faces, surface.vertices, self.n, self.extent).decode()
