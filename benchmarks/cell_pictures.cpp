@@ -48,7 +48,7 @@ void writeColoured(const std::string& path, const std::vector<ColouredCells>& se
   for (const ColouredCells& set : sets) {
     std::uint32_t widest = 0;
     for (std::size_t i = 0; i < set.model->points.size(); ++i) {
-      const GridPoint& p = set.model->points[i];
+      const GridPoint& p = set.restored ? set.coding->restored[i] : set.model->points[i];
       widest = std::max(widest, p[0]);
       put(out, static_cast<float>(p[0]) + offset);
       put(out, static_cast<float>(p[1]));

@@ -11,6 +11,7 @@ namespace bspc::paper {
 struct ColouredCells {
   const GriddedModel* model = nullptr;
   const Coding* coding = nullptr;
+  bool restored = false;  ///< where the decoder puts the points, not where they were
 };
 
 /// Writes the points as a binary PLY file with a colour and the number of the cell for each, the

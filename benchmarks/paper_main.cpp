@@ -1,62 +1,25 @@
 // The tables and curves of the paper, from models that are given as files:
-//   paper table3 MODEL...      bits per point of the four partitions that Table 3 compares
+//   paper table2 MODEL...      bits per point and times by the number of points
+//   paper table3 MODEL...      bits per point of the four partitions, model by model
 //   paper rate MODEL [METHOD]  bits per point and error, level by level
 //   paper distortion MODEL     rate against error where cells with few points stay undivided
 //   paper figures MODEL FOLDER points coloured by cell, as PLY files
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <exception>
-#include <map>
+#include <fstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "cell_pictures.h"
 #include "paper_support.h"
+#include "paper_tables.h"
 
 namespace bspc::paper {
 namespace {
-
-/// As printed: A. Bordignon et al., SIBGRAPI 2006, Table 3, bits per vertex at 12 bits.
-struct Printed {
-  const char* model;
-  std::array<double, 4> bitsPerPoint;
-};
-constexpr Printed kPrinted[] = {{"triceratops.off", {22.08, 20.66, 20.68, 17.30}}};
-
-constexpr Method kColumns[] = {Method::Octree, Method::Kd, Method::GenCode, Method::Bsp};
-
-int table3(const std::vector<std::string>& files) {
-  std::printf("%-26s %9s %12s %12s %12s %12s\n", "bits per point at 12 bits", "points",
-              "[1] octree", "[4] kd", "[7] gencode", "BSP");
-  bool allExact = true;
-  for (const std::string& file : files) {
-    const GriddedModel model = readGridded(file);
-    std::printf("%-26s %9zu", model.name.c_str(), model.points.size());
-    for (const Method method : kColumns) {
-      EncodeOptions options;
-      options.method = method;
-      const Coding coding = codeAndDecode(model, options);
-      allExact = allExact && coding.exact();
-      std::printf(" %12.2f%s", coding.bitsPerPoint, coding.exact() ? "" : " INEXACT");
-    }
-    std::printf("\n");
-    for (const Printed& printed : kPrinted) {
-      if (model.name != printed.model) continue;
-      std::printf("%-26s %9s", "  as the paper prints it", "");
-      for (const double bits : printed.bitsPerPoint) std::printf(" %12.2f", bits);
-      std::printf("\n");
-    }
-  }
-  std::printf(
-      "\nWhole files; every one was decoded and %s.\n"
-      "The printed 17.30 of BSP is not a lossless coding at 12 bits: strictly lossless, the "
-      "paper's\n"
-      "system needs what the last column says. See docs/paper.md.\n",
-      allExact ? "holds the very points of its grid" : "SOME DO NOT HOLD THE POINTS");
-  return allExact ? 0 : 1;
-}
 
 void printRow(const char* label, std::uint64_t value, const Coding& coding) {
   std::printf("%6s %6llu %9llu %10.3f %10.3f %10.3f\n", label,
@@ -103,6 +66,8 @@ int figures(const std::string& file, const std::string& folder) {
   // Figure 1's rates; the other figures show one level after the other.
   constexpr double kRates[] = {1.3, 4.1, 8.5, 15.3};
   std::vector<ColouredCells> sideBySide;
+  // File, bits per point and cells of each, for paper_pictures.py.
+  std::ofstream list(folder + "/rates.txt");
   for (const double wished : kRates) {
     std::size_t best = 0;
     for (std::size_t level = 1; level < levels.size(); ++level) {
@@ -112,14 +77,24 @@ int figures(const std::string& file, const std::string& folder) {
       }
     }
     sideBySide.push_back({&model, &levels[best]});
+    const std::string name = "rate_" + std::to_string(sideBySide.size());
+    std::string path = folder;
+    path.append("/").append(name);
+    writeColoured(path + ".ply", {sideBySide.back()});
+    writeColoured(path + "_restored.ply", {{&model, &levels[best], true}});
+    list << name << '\t' << std::round(10 * levels[best].bitsPerPoint) / 10 << '\t'
+         << levels[best].cells << '\n';
     std::printf("%4.1f bits per point: level %zu, %.2f bits per point, %llu cells\n", wished, best,
                 levels[best].bitsPerPoint, static_cast<unsigned long long>(levels[best].cells));
   }
+  list.close();
+  if (!list) throw std::runtime_error(folder + "/rates.txt: cannot be written");
   writeColoured(folder + "/rates.ply", sideBySide);
   constexpr unsigned kShown = 12;
   for (unsigned level = 0; level < std::min<std::size_t>(kShown, levels.size()); ++level) {
-    const std::string number = (level < 10 ? "0" : "") + std::to_string(level);
-    writeColoured(folder + "/level_" + number + ".ply", {{&model, &levels[level]}});
+    std::string path = folder + (level < 10 ? "/level_0" : "/level_");
+    path.append(std::to_string(level)).append(".ply");
+    writeColoured(path, {{&model, &levels[level]}});
   }
   std::printf("%s/rates.ply: the four rates side by side; %s/level_NN.ply: level by level\n",
               folder.c_str(), folder.c_str());
@@ -129,12 +104,13 @@ int figures(const std::string& file, const std::string& folder) {
 int run(const std::vector<std::string>& words) {
   const std::string& what = words.empty() ? std::string() : words[0];
   const std::size_t more = words.empty() ? 0 : words.size() - 1;
+  if (what == "table2" && more >= 1) return table2({words.begin() + 1, words.end()});
   if (what == "table3" && more >= 1) return table3({words.begin() + 1, words.end()});
   if (what == "rate" && more >= 1 && more <= 2) return rate(words[1], more == 2 ? words[2] : "bsp");
   if (what == "distortion" && more == 1) return distortion(words[1]);
   if (what == "figures" && more == 2) return figures(words[1], words[2]);
   std::fputs(
-      "Usage: paper table3 MODEL... | rate MODEL [bsp|kd] | distortion MODEL | "
+      "Usage: paper table2|table3 MODEL... | rate MODEL [bsp|kd] | distortion MODEL | "
       "figures MODEL FOLDER\n",
       stderr);
   return 2;

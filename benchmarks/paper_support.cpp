@@ -6,6 +6,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "benchmark_support.h"
 #include "bspc/decoder.h"
 #include "formats/model_io.h"
 
@@ -50,16 +51,18 @@ Coding codeAndDecode(const GriddedModel& model, const EncodeOptions& wishes) {
   Grid grid;
   grid.scalarType = ScalarType::Int32;
   options.grid = GridRequest::onGrid(grid);
+  Coding coding;
   MemorySink sink;
-  const EncodeReport report = encode(model.view(), sink, options);
+  EncodeReport report;
+  coding.encodeSeconds = secondsOf([&] { report = encode(model.view(), sink, options); });
   Decoder decoder(std::make_shared<MemorySource>(sink.bytes()));
   DecodeOptions asked;
   asked.cellLevel = 0;
-  const DecodedPoints decoded = decoder.decode(asked);
+  DecodedPoints decoded;
+  coding.decodeSeconds = secondsOf([&] { decoded = decoder.decode(asked); });
   std::vector<std::int32_t> back(3 * decoded.points.size());
   restorePositions(decoder.info().grid, Span<const GridPoint>(decoded.points), back.data());
 
-  Coding coding;
   coding.fileBytes = report.fileBytes;
   const auto count = static_cast<double>(model.points.size());
   coding.bitsPerPoint = 8 * static_cast<double>(report.fileBytes) / count;

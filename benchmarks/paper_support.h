@@ -32,6 +32,8 @@ struct Coding {
   std::vector<GridPoint> restored;  ///< restored[i]: what point i of the model came back as
   std::vector<std::uint64_t> cell;  ///< cell[i]: the leaf cell that point i lies in
   std::uint64_t cells = 0;
+  double encodeSeconds = 0;  ///< processor time
+  double decodeSeconds = 0;
   double rms = 0;       ///< of the distances to the restored points, in grid steps
   double greatest = 0;  ///< of the same
   bool exact() const { return greatest == 0; }

@@ -9,113 +9,44 @@
 // meets all of them, and each time is the median. Speeds are told relative to Draco's smallest
 // files, too. With --coder only the first and those with that in their name run.
 
-#include <draco/compression/decode.h>
-#include <draco/compression/encode.h>
-#include <draco/point_cloud/point_cloud.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
-#include <functional>
-#include <memory>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "benchmark_support.h"
-#include "bspc/decoder.h"
 #include "bspc/encoder.h"
+#include "codec.h"
 
 namespace bspc {
 namespace {
 
-struct Coder {
-  std::string name;
-  std::function<Bytes(const Coordinates&)> encode;
-  std::function<Coordinates(const Bytes&)> decode;
-};
-
-Bytes encodeWithDraco(const Coordinates& xyz, int speed) {
-  const std::size_t count = xyz.size() / 3;
-  draco::PointCloud cloud;
-  cloud.set_num_points(static_cast<std::uint32_t>(count));
-  draco::GeometryAttribute position;
-  position.Init(draco::GeometryAttribute::POSITION, nullptr, 3, draco::DT_INT32, false,
-                3 * sizeof(std::int32_t), 0);
-  const int id = cloud.AddAttribute(position, true, static_cast<std::uint32_t>(count));
-  std::memcpy(cloud.attribute(id)->buffer()->data(), xyz.data(), xyz.size() * sizeof(xyz[0]));
-  draco::Encoder encoder;
-  encoder.SetEncodingMethod(draco::POINT_CLOUD_KD_TREE_ENCODING);
-  encoder.SetSpeedOptions(speed, speed);
-  draco::EncoderBuffer buffer;
-  const draco::Status status = encoder.EncodePointCloudToBuffer(cloud, &buffer);
-  if (!status.ok()) throw std::runtime_error("Draco: " + status.error_msg_string());
-  return {buffer.data(), buffer.data() + buffer.size()};
-}
-
-Coordinates decodeWithDraco(const Bytes& bytes) {
-  draco::DecoderBuffer buffer;
-  buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  draco::Decoder decoder;
-  auto result = decoder.DecodePointCloudFromBuffer(&buffer);
-  if (!result.ok()) throw std::runtime_error("Draco: " + result.status().error_msg_string());
-  const std::unique_ptr<draco::PointCloud> cloud = std::move(result).value();
-  const auto* position = cloud->GetNamedAttribute(draco::GeometryAttribute::POSITION);
-  Coordinates xyz(3 * std::size_t{cloud->num_points()});
-  for (std::uint32_t i = 0; i < cloud->num_points(); ++i) {
-    position->GetMappedValue(draco::PointIndex(i), &xyz[3 * std::size_t{i}]);
+std::vector<bench::Codec> allCoders() {
+  std::vector<bench::Codec> coders;
+  for (const int speed : {0, 10}) {
+    coders.push_back(bench::dracoCodec(bench::DracoMethod::KdTree, speed));
   }
-  return xyz;
-}
-
-Bytes encodeWithBspc(const Coordinates& xyz, const EncodeOptions& options) {
-  MemorySink sink;
-  encode(PointSetView(xyz.data(), xyz.size() / 3), sink, options);
-  return sink.bytes();
-}
-
-Coordinates decodeWithBspc(const Bytes& bytes) {
-  Decoder decoder(std::make_shared<MemorySource>(bytes));
-  DecodeOptions options;
-  options.threads = 1;
-  const DecodedPoints decoded = decoder.decode(options);
-  Coordinates xyz(3 * decoded.points.size());
-  restorePositions(decoder.info().grid, Span<const GridPoint>(decoded.points), xyz.data());
-  return xyz;
-}
-
-Coder bspcCoder(Method method, std::optional<unsigned> effort) {
   EncodeOptions options;
   options.layers = 1;
-  options.threads = 1;
-  options.method = method;
-  options.effort = effort;
-  const std::string suffix = effort ? " effort " + std::to_string(*effort) : "";
-  return {"bspc " + std::string(methodName(method)) + suffix,
-          [options](const Coordinates& xyz) { return encodeWithBspc(xyz, options); },
-          decodeWithBspc};
-}
-
-std::vector<Coder> allCoders() {
-  std::vector<Coder> coders;
-  for (const int speed : {0, 10}) {
-    coders.push_back({"draco speed " + std::to_string(speed),
-                      [speed](const Coordinates& xyz) { return encodeWithDraco(xyz, speed); },
-                      decodeWithDraco});
+  options.method = Method::Kd;
+  coders.push_back(bench::bspcCodec("bspc kd", options));
+  options.method = Method::Fast;
+  for (const unsigned effort : {1U, 2U, 3U, 4U}) {
+    options.effort = effort;
+    coders.push_back(bench::bspcCodec("bspc fast effort " + std::to_string(effort), options));
   }
-  coders.push_back(bspcCoder(Method::Kd, std::nullopt));
-  for (const unsigned effort : {1U, 2U, 3U, 4U}) coders.push_back(bspcCoder(Method::Fast, effort));
   return coders;
 }
 
 /// All coders, or the first and those whose names have a part of `wanted`.
-std::vector<Coder> codersNamed(const std::vector<std::string>& wanted) {
-  std::vector<Coder> coders;
-  for (Coder& coder : allCoders()) {
+std::vector<bench::Codec> codersNamed(const std::vector<std::string>& wanted) {
+  std::vector<bench::Codec> coders;
+  for (bench::Codec& coder : allCoders()) {
     const bool named = std::any_of(wanted.begin(), wanted.end(), [&coder](const std::string& part) {
       return coder.name.find(part) != std::string::npos;
     });
@@ -131,11 +62,11 @@ struct Measurement {
 };
 
 /// One run of a coder; the first checks what comes back.
-void runOnce(const Coder& coder, const Coordinates& xyz, Measurement& result) {
+void runOnce(const bench::Codec& coder, const Coordinates& xyz, Measurement& result) {
   Bytes bytes;
   Coordinates back;
-  result.encodeSeconds.push_back(secondsOf([&] { bytes = coder.encode(xyz); }));
-  result.decodeSeconds.push_back(secondsOf([&] { back = coder.decode(bytes); }));
+  result.encodeSeconds.push_back(secondsOf([&] { bytes = coder.encode(xyz, 1); }));
+  result.decodeSeconds.push_back(secondsOf([&] { back = coder.decode(bytes, 1); }));
   if (result.bytes == 0 && sortedPoints(back) != sortedPoints(xyz)) {
     throw std::runtime_error(coder.name + " did not give the points back");
   }
@@ -143,11 +74,11 @@ void runOnce(const Coder& coder, const Coordinates& xyz, Measurement& result) {
 }
 
 void printHead() {
-  std::printf("%-24s %10s  %-18s %8s %12s %12s  %s\n", "file", "points", "coder", "bpp",
+  std::printf("%-24s %10s  %-24s %8s %12s %12s  %s\n", "file", "points", "coder", "bpp",
               "enc Mpts/s", "dec Mpts/s", "size, enc, dec / draco 0");
 }
 
-void compare(const std::string& path, const std::vector<Coder>& coders, int repetitions) {
+void compare(const std::string& path, const std::vector<bench::Codec>& coders, int repetitions) {
   const Coordinates xyz = readOnLattice(path);
   const std::size_t count = xyz.size() / 3;
   const auto points = static_cast<double>(count);
@@ -160,7 +91,7 @@ void compare(const std::string& path, const std::vector<Coder>& coders, int repe
     const Measurement& result = results[c];
     const double encodeSeconds = median(result.encodeSeconds);
     const double decodeSeconds = median(result.decodeSeconds);
-    std::printf("%-24s %10.0f  %-18s %8.3f %12.2f %12.2f  %.3f %.2f %.2f\n", name.c_str(), points,
+    std::printf("%-24s %10.0f  %-24s %8.3f %12.2f %12.2f  %.3f %.2f %.2f\n", name.c_str(), points,
                 coders[c].name.c_str(), 8 * static_cast<double>(result.bytes) / points,
                 points / encodeSeconds / 1e6, points / decodeSeconds / 1e6,
                 static_cast<double>(result.bytes) / static_cast<double>(results[0].bytes),
@@ -190,7 +121,7 @@ int runAll(int count, char** arguments) {
     }
   }
   if (first >= count || repetitions < 1) return usage();
-  const std::vector<Coder> coders = codersNamed(wanted);
+  const std::vector<bench::Codec> coders = codersNamed(wanted);
   int failures = 0;
   printHead();
   for (int i = first; i < count; ++i) {
