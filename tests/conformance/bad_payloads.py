@@ -100,6 +100,7 @@ def predictive_rules(good: bytes) -> Iterator[BadFile]:
         ("flags above 2^14", "F8000000006101000018"),
         ("no cell points", "F0000000000101000018"),
         ("25 near points", "F0000000006191000018"),
+        ("no near points", "F0000000006001000018"),
         ("an unknown refit", "F0000000006101003800"),
     ):
         cases.payload(f"predictive: {what}", GEOMETRY, bytes.fromhex(start) + bytes(40))

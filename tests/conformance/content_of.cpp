@@ -82,24 +82,37 @@ void addMetadata(Content& content, const FileInfo& info) {
   }
 }
 
+template <class T>
+void addCoordinates(Content& content, const bspc::Grid& grid, const DecodedPoints& decoded) {
+  std::vector<T> xyz(3 * decoded.points.size());
+  bspc::restorePositions(grid, decoded, xyz.data());
+  for (const T x : xyz) content.number(static_cast<double>(x));
+}
+
 void addPositions(Content& content, const bspc::Grid& grid, const DecodedPoints& decoded) {
   content.number(std::uint64_t{decoded.points.size()});
-  if (grid.form == bspc::Grid::Form::FloatBits || bspc::isFloatingPoint(grid.scalarType)) {
-    std::vector<double> xyz(3 * decoded.points.size());
-    if (grid.scalarType == ScalarType::Float32) {
-      std::vector<float> narrow(xyz.size());
-      bspc::restorePositions(grid, decoded, narrow.data());
-      std::copy(narrow.begin(), narrow.end(), xyz.begin());
-    } else {
-      bspc::restorePositions(grid, decoded, xyz.data());
-    }
-    for (const double x : xyz) content.number(x);
-    return;
-  }
-  for (const bspc::GridPoint& point : decoded.points) {
-    for (int axis = 0; axis < 3; ++axis) {
-      content.number(bspc::restoredCoordinate(grid, axis, point[static_cast<std::size_t>(axis)]));
-    }
+  const auto add = [&](auto zero) { addCoordinates<decltype(zero)>(content, grid, decoded); };
+  switch (grid.scalarType) {
+    case ScalarType::Float32:
+      return add(float{});
+    case ScalarType::Int8:
+      return add(std::int8_t{});
+    case ScalarType::UInt8:
+      return add(std::uint8_t{});
+    case ScalarType::Int16:
+      return add(std::int16_t{});
+    case ScalarType::UInt16:
+      return add(std::uint16_t{});
+    case ScalarType::Int32:
+      return add(std::int32_t{});
+    case ScalarType::UInt32:
+      return add(std::uint32_t{});
+    case ScalarType::Int64:
+      return add(std::int64_t{});
+    case ScalarType::UInt64:
+      return add(std::uint64_t{});
+    default:
+      return add(double{});
   }
 }
 

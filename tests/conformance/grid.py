@@ -7,6 +7,7 @@ import struct
 from math import gcd
 
 from elementary import FLOAT32, FLOAT64, SCALAR_TYPES, Reader, float32, is_float, require
+from words import FLOAT32_GREATEST
 
 RATIONAL, AFFINE, FLOAT_BITS = 0, 1, 2
 
@@ -72,7 +73,7 @@ class Grid:
         if self.scalar_type == FLOAT64:
             return value + 0.0
         if self.scalar_type == FLOAT32:
-            return float32(value) + 0.0
+            return float32(min(max(value, -FLOAT32_GREATEST), FLOAT32_GREATEST)) + 0.0
         name, size, _ = SCALAR_TYPES[self.scalar_type]
         signed = not name.startswith("u")
         low, high = (-(1 << 8 * size - 1), (1 << 8 * size - 1) - 1) if signed else (0, (1 << 8 * size) - 1)

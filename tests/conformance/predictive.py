@@ -39,7 +39,7 @@ class Features:
                 coder.raw(8) for _ in range(4)
             )
             require(self.cell_points >= 1, "cells of no points")
-            require(self.near_points <= 24, "too many near points")
+            require(1 <= self.near_points <= 24, "a wrong number of near points")
             require(self.refit <= 2, "an unknown way to refit")
         else:
             require(self.effort in EFFORTS, "an unknown effort")

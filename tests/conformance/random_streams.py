@@ -22,19 +22,19 @@ from collections import Counter
 
 from bsp import Bsp
 from content import Content, checksum_of_cells
-from container import Head
 from draft import block, text, varint, with_checksum
-from elementary import FormatError
+from elementary import FormatError, Reader
+from grid import Grid
 from mesh_cells import decode_cells
 from partition_methods import Kd, Occupancy
 from predictive import Predictive
+from random_grids import random_grid
 from random_values import RandomValues
 from scripted import RandomScript, TooLong, number
 from surface import Surface
 from surface_places import Places
 from xxh3 import checksum, checksum_width
 
-GRID = b"\x41\1\1\0"  # float64, steps of 1
 SIGNATURE = bytes.fromhex("8B425350 0D0A1A0A 0100")
 
 
@@ -52,6 +52,7 @@ class Stream:
         if rng.randrange(2):
             bits = [max(bits)] * 3
         self.extent = [rng.randrange(1 << b) for b in bits]
+        self.grid = random_grid(rng)
         self.version = rng.randrange(2) if self.method == 1 else 0
         self.payloads: list[bytes] = []
         self.counts: list[int] = []
@@ -74,7 +75,7 @@ class Stream:
             if rng.randrange(3):
                 return [rng.randrange(5, 10)]
             features = [rng.randrange(256), rng.randrange(256)]
-            return [15, *features, rng.randrange(1, 9), rng.randrange(25), rng.randrange(20), rng.randrange(3)]
+            return [15, *features, rng.randrange(1, 9), rng.randrange(1, 25), rng.choice((4, 20, 255)), rng.randrange(3)]
         return []
 
     def fill(self) -> None:
@@ -122,7 +123,7 @@ class Stream:
 
     def _add_cells(self, points: list) -> None:
         """A Mesh block over the points."""
-        rng, grid, surface = self.rng, Head(b"\0" + GRID + b"\0").grid, self.faces
+        rng, grid, surface = self.rng, Grid(Reader(self.grid)), self.faces
         version = 1 if surface and rng.randrange(4) else 0
         start = [version, *number(rng.randrange(3)), *number(rng.randrange(4)), rng.randrange(2), rng.randrange(2)]
         if start[-2]:
@@ -158,7 +159,7 @@ class Stream:
         if self.cells is not None:
             told = b"".join(varint(len(c)) for c in self.cells) + b"\1\0"
             flags, records = flags | 64, b"\1\3" + text(told)
-        head = block(1, bytes([flags]) + GRID + records + b"\1" + record, SIGNATURE)
+        head = block(1, bytes([flags]) + self.grid + records + b"\1" + record, SIGNATURE)
         chunks = b"".join(with_checksum(p) for p in payloads)
         return SIGNATURE + head + chunks + (block(5, self.mesh) if self.cells is not None else b"")
 

@@ -34,7 +34,8 @@ void codeFeatures(Coder& coder, unsigned effort, Features& features) {
   features.pairReach = byte(features.pairReach);
   features.refit = static_cast<Features::Refit>(byte(static_cast<std::uint8_t>(features.refit)));
   if ((features.flags & ~Features::kAllFlags) != 0 || features.cellPoints == 0 ||
-      features.nearPoints > Features::kMostNearPoints || features.refit > Features::Refit::Always) {
+      features.nearPoints == 0 || features.nearPoints > Features::kMostNearPoints ||
+      features.refit > Features::Refit::Always) {
     throw Error(ErrorCode::Corrupt,
                 "a tile of method predictive has features that this version does not know");
   }
