@@ -6,7 +6,7 @@ from elementary import Reader, require
 from fast_entropy import FIELD_DEFAULT, RansDecoder, RawBits, ValueCode, read_table
 from fast_slabs import SlabSet
 from partition_methods import Kd
-from range_coder import AdaptiveBits, RangeDecoder
+from range_coder import AdaptiveBits, RangeDecoder, stream_of
 
 Point = tuple[int, int, int]
 
@@ -86,7 +86,7 @@ class Fast:
         return counts
 
     def _in_input_order(self, payload: bytes, layer: int) -> None:
-        coder = RangeDecoder(payload)
+        coder = stream_of(payload)
         axes = [OrderedAxis(k, e) for k, e in enumerate(self.header.extent)]
         bits = AdaptiveBits()
         for place in self.places(layer):
