@@ -45,6 +45,9 @@ double greatestCoordinate(const bspc::Grid& grid, int axis, std::uint32_t i) {
   return bspc::restoredCoordinate(grid, axis, shared ? i + 1 : i);
 }
 
+/// What decoding may take whatever the limit of the output.
+constexpr std::uint64_t kLeastMemory = std::uint64_t{64} << 20;
+
 std::uint64_t memoryBytes(vtkIdType mebibytes) {
   if (mebibytes > 0) return static_cast<std::uint64_t>(mebibytes) << 20;
   // In KiB.
@@ -106,6 +109,9 @@ int vtkBSPReader::vtkInternals::Run(const std::function<void()>& body) {
 Decoder vtkBSPReader::vtkInternals::Open() const {
   bspc::OpenOptions options;
   options.allowPartial = self_->AllowPartial;
+  // Nothing is decoded for which the output has no room, but for what a tile takes on the way.
+  options.limits.memoryBytes =
+      std::min(options.limits.memoryBytes, std::max(memoryBytes(self_->MemoryLimit), kLeastMemory));
   return self_->ReadFromInputString ? bspc::vtk::openBytes(self_->InputString, options)
                                     : bspc::vtk::openFile(self_->FileName, options);
 }

@@ -136,7 +136,8 @@ class VTKBSPREADER_EXPORT vtkBSPReader : public vtkAbstractPolyDataReader {
   ///@{
   /**
    * The most memory that the output may take, in MiB, as a protection against files that unfold to
-   * more than anybody wants. Default: 0, the memory of the machine.
+   * more than anybody wants. Decoding may take as much beside it, and at least 64 MiB. Default: 0,
+   * the memory of the machine.
    */
   vtkSetClampMacro(MemoryLimit, vtkIdType, 0, VTK_ID_MAX >> 20);
   vtkGetMacro(MemoryLimit, vtkIdType);

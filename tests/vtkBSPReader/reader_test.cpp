@@ -348,6 +348,16 @@ TEST_F(Reader, MoreThanTheMemoryLimitIsAnError) {
   EXPECT_EQ(reader_->GetOutput()->GetNumberOfPoints(), 300000);
 }
 
+/// The file claims 2^28 equal points, which take six bytes in it.
+TEST_F(Reader, WhatTheLimitHasNoRoomForIsNotDecoded) {
+  reader_->SetMemoryLimit(1);
+  const ErrorLog log(reader_);
+  reader_->SetFileName(BSPC_TEST_DATA "/fuzz/vtk_reader/points_beyond_the_memory_limit");
+  reader_->Update();
+  EXPECT_NE(log.first().find("more memory than the limit"), std::string::npos) << log.first();
+  EXPECT_EQ(reader_->GetOutput()->GetNumberOfPoints(), 0);
+}
+
 TEST_F(Reader, TheOutputIsMadeAnewOnlyWhenSomethingChanged) {
   readBytes(bytes_, reader_);
   const vtkMTimeType time = reader_->GetOutput()->GetMTime();
