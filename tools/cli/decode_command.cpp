@@ -259,12 +259,14 @@ void addDecodeCommand(CLI::App& app) {
   command
       ->add_option("--color-level", args->colourLevel,
                    "Add CellId: the cell of that level that each point lies in")
+      ->option_text("LEVEL")
       ->group("Arrays");
   command->add_flag("--partial", args->partial,
                     "Decode what is whole of a file that was cut short");
   command->add_option("--threads", args->threads, "Threads (default: as many as the machine has)")
       ->option_text("N");
   command->add_option("--max-memory", args->maxMemory, "Memory limit in GiB (default 16)")
+      ->option_text("GIB")
       ->check(CLI::PositiveNumber);
   command->add_option("--to", args->to, "Format of the output where its name does not tell")
       ->type_name("ply|obj|off|xyz|csv|las|pcd");
