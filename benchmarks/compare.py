@@ -125,9 +125,9 @@ def main():
             if arguments.scaling:
                 for kind in ("surface", "lines"):
                     comparison.scale(sets, kind, arguments.scale_to)
-    comparison_report.write(output, sys.argv[1:], arguments)
     subprocess.run(["/usr/bin/python3", HERE / "plot_comparison.py", output / "results.tsv", output],
                    check=True)
+    comparison_report.write(output, sys.argv[1:], arguments)
     print("compare: %s: results.tsv, report.md and plots" % output, file=sys.stderr)
     return 1 if comparison.failures else 0
 

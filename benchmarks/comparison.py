@@ -3,13 +3,14 @@
 compare_codec (peers/compare_codec.cpp) does the work; here codecs take turns, and slow ones stop.
 """
 
+import os
 import pathlib
 import re
 import shlex
+import signal
 import statistics
 import subprocess
 import sys
-import os
 from typing import Dict, List, NamedTuple, Optional
 
 COLUMNS = (
@@ -70,15 +71,20 @@ class OverLimit(Exception):
 
 def run_step(program, *words, timeout=None) -> Dict[str, float]:
     """What compare_codec printed, as numbers by name."""
-    try:
-        done = subprocess.run([program, *map(str, words)], stdout=subprocess.PIPE,
-                              stderr=subprocess.PIPE, timeout=timeout, check=False)
-    except subprocess.TimeoutExpired as error:
-        raise OverLimit() from error
-    if done.returncode != 0:
-        message = done.stderr.decode("utf-8", "replace").strip().splitlines()
-        raise StepFailed(message[-1] if message else "ended with %d" % done.returncode)
-    pairs = (pair.split("=") for pair in done.stdout.decode("ascii").split())
+    # A session of its own, so that the programs that a command has started end with it.
+    with subprocess.Popen([program, *map(str, words)], stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, start_new_session=True) as process:
+        try:
+            output, errors = process.communicate(timeout=timeout)
+        except subprocess.TimeoutExpired as error:
+            raise OverLimit() from error
+        finally:
+            if process.poll() is None:
+                os.killpg(process.pid, signal.SIGKILL)
+    if process.returncode != 0:
+        message = errors.decode("utf-8", "replace").strip().splitlines()
+        raise StepFailed(message[-1] if message else "ended with %d" % process.returncode)
+    pairs = (pair.split("=") for pair in output.decode("ascii").split())
     return {name: float(value) for name, value in pairs}
 
 

@@ -121,7 +121,12 @@ def speeds(rows: List[Row], threads: str) -> str:
                          body) + "\n"
 
 
-def scaling(rows: List[Row]) -> str:
+def pictures(output: pathlib.Path, prefix: str) -> str:
+    names = sorted(path.name for path in output.glob(prefix + "*.png"))
+    return "".join("![%s](%s)\n\n" % (name[:-4].replace("_", " "), name) for name in names)
+
+
+def scaling(rows: List[Row], plots: str) -> str:
     text = ""
     scaled = [row for row in rows if row["group"] == "scaling"]
     for name in dict.fromkeys(row["set"] for row in scaled):
@@ -143,7 +148,7 @@ def scaling(rows: List[Row]) -> str:
                 body.append(cells)
             text += "### %s, %s\n\n" % (UNNAMED.get(name, name), title)
             text += table([""] + ["{:,}".format(count) for count in counts], body) + "\n"
-    return "## Scaling\n\n" + text if text else ""
+    return "## Scaling\n\n" + plots + text if text else ""
 
 
 def write(output: pathlib.Path, words: List[str], arguments) -> None:
@@ -159,10 +164,11 @@ def write(output: pathlib.Path, words: List[str], arguments) -> None:
         " had, with the points. `-`: longer than %g s for one run (or expected to be, from a set a"
         " tenth as large), or not for all sets.\n\n" % (arguments.rounds, arguments.limit)
     )
+    text += pictures(output, "size_")
     text += sizes(rows)
     for threads in dict.fromkeys(row["threads"] for row in rows):
         text += speeds(rows, threads)
-    text += scaling(rows)
+    text += scaling(rows, pictures(output, "scaling_"))
     failed = [row for row in rows if row["note"].startswith("failed")]
     if failed:
         text += "## Failures\n\n" + table(
