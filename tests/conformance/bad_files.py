@@ -27,6 +27,7 @@ from bad_container import (
 )
 from bad_payloads import (
     array_rules,
+    cell_array_rules,
     fast_rules,
     mesh_rules,
     partition_rules,
@@ -61,6 +62,7 @@ def all_bad_files() -> Iterator[BadFile]:
     yield from array_rules(good("kd_arrays"))
     yield from predictive_rules(good("predictive_terrain_bits"))
     yield from mesh_rules(good("mesh"))
+    yield from cell_array_rules(good("all_cells"), good("joined_cells"))
     yield from surface_rules(good("surface_mesh"), good("random_surface_647"))
 
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import struct
-from typing import Iterator
+from typing import Callable, Iterator
 
 from bad_container import CORRUPT, UNSUPPORTED, BadFile, Cases
-from container import File
-from draft import Draft, varint, zstd_frame
+from container import File, MeshRecord
+from draft import Draft, MeshDraft, varint, zstd_frame
 from elementary import FormatError
 from scripted import Script, adaptive_number, number
 from surface import Surface
@@ -284,3 +284,34 @@ def mesh_rules(good: bytes) -> Iterator[BadFile]:
         cases.set(f"mesh: {what}", kind, mesh_blocks=[changed])
     yield from cases.files
 
+
+def cell_array_rules(good: bytes, joined: bytes) -> Iterator[BadFile]:
+    """Section 15, of a file with arrays beside its cells, and of one with two Mesh blocks."""
+    cases = PayloadCases(good)
+    draft = Draft(good)
+    record = MeshRecord(dict(draft.records)[3])
+
+    def changed(what: str, change: Callable[[MeshDraft], None], kind: str = CORRUPT) -> None:
+        mesh = MeshDraft(draft.mesh_blocks[0], record)
+        change(mesh)
+        cases.set(f"cells: {what}", kind, mesh_blocks=[mesh.bytes()])
+
+    for number, array in enumerate(record.arrays):
+        name = array.name.decode()
+        wrong = bytes(array.content_width(sum(record.counts)))
+        changed(f"another content of the array {name}", lambda m: m.value_contents.__setitem__(number, wrong))
+        changed(f"the array {name} without a payload", lambda m: m.values.__setitem__(number, b""))
+        changed(f"the array {name} of no method", lambda m: m.values.__setitem__(number, b"\x09"), UNSUPPORTED)
+    changed("2^60 in a block", lambda m: setattr(m, "counts", varint(1 << 60) * 3))
+    changed("other numbers of each sort", lambda m: setattr(m, "counts", m.counts[1:2] + m.counts[:1] + m.counts[2:]))
+    yield from cases.files
+
+    cases = PayloadCases(joined)
+    draft = Draft(joined)
+    record = MeshRecord(dict(draft.records)[3])
+    cases.set("Mesh blocks in another order", mesh_blocks=draft.mesh_blocks[::-1])
+    second = MeshDraft(draft.mesh_blocks[1], record)
+    second.first_tile = b"\0"
+    cases.set("Mesh blocks that overlap", mesh_blocks=[draft.mesh_blocks[0], second.bytes()])
+    cases.set("a Mesh block too few", "truncated", mesh_blocks=draft.mesh_blocks[:1])
+    yield from cases.files

@@ -5,7 +5,7 @@ A draft is made from a good file; its fields can then be changed, also to what t
 
 from __future__ import annotations
 
-from container import END, HEAD, INDEX, MESH, SIGNATURE, TILE, File, Tile
+from container import END, HEAD, INDEX, MESH, SIGNATURE, TILE, File, MeshBlock, MeshRecord, Tile
 from xxh3 import checksum, checksum_width
 
 
@@ -99,6 +99,25 @@ class TileDraft:
     def record(self) -> bytes:
         names = self.NAMES + (self.ARRAY_NAMES if self.with_arrays else ())
         return b"".join(self.field(n) for n in names)
+
+
+class MeshDraft:
+    """The fields of a Mesh block, each as its bytes."""
+
+    def __init__(self, content: bytes, record: MeshRecord):
+        block = MeshBlock(content, record)
+        cells = sum(block.counts)
+        self.first_tile, self.tiles = varint(block.first_tile), varint(block.tiles)
+        self.counts = b"".join(varint(c) for c in block.counts)
+        self.content = block.content.to_bytes(checksum_width(16 * cells), "little")
+        self.cells = bytes(block.cells)
+        widths = [a.content_width(cells) for a in record.arrays]
+        self.value_contents = [c.to_bytes(w, "little") for c, w in zip(block.value_contents, widths)]
+        self.values = [bytes(v) for v in block.values]
+
+    def bytes(self) -> bytes:
+        values = b"".join(c + text(v) for c, v in zip(self.value_contents, self.values))
+        return self.first_tile + self.tiles + self.counts + self.content + text(self.cells) + values
 
 
 class Draft:
