@@ -280,15 +280,22 @@ class File:
             tile.chunks = {}
             for column, size in tile.chunk_sizes(self.head.layers):
                 columns.setdefault(column, []).append((t, size))
-        for column in sorted(columns):
-            for t, size in columns[column]:
-                self.tiles[t].chunks[column] = self._chunk(size)
+        sizes = [size for column in columns.values() for _, size in column]
+        promised = sum(s + checksum_width(s) for s in sizes)
+        require(promised <= self.reader.left(), "the file ends early", "truncated")
+        start = self.reader.position
+        self.reader.position += promised
         for _ in range(self.head.mesh.blocks if self.head.mesh else 0):
             kind, content = self._block()
             require(kind == MESH, "a mesh block is missing")
             self._add_mesh(content)
         if self.head.trailing:
             self._read_trailing({END})
+        end, self.reader.position = self.reader.position, start
+        for column in sorted(columns):
+            for t, size in columns[column]:
+                self.tiles[t].chunks[column] = self._chunk(size)
+        self.reader.position = end
 
     def _read_trailing(self, last: set[int]) -> tuple[int, bytes]:
         """Optional blocks up to one of a type in `last`, which is returned."""
@@ -311,6 +318,7 @@ class File:
 
     def _read_streaming(self) -> None:
         self._require_end_block()
+        self.reader.short = "corrupt"  # the file is whole
         self.tiles = []
         index, optional = None, False
         while index is None:
