@@ -28,3 +28,14 @@ if(BSPC_SANITIZE)
   )
   target_link_options(bspc_compiler_options INTERFACE -fsanitize=address,undefined)
 endif()
+if(BSPC_SANITIZE_THREADS)
+  target_compile_options(bspc_compiler_options INTERFACE
+    -fsanitize=thread -fno-omit-frame-pointer
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>
+  )
+  target_link_options(bspc_compiler_options INTERFACE -fsanitize=thread)
+endif()
+if(BSPC_COVERAGE)
+  target_compile_options(bspc_compiler_options INTERFACE --coverage -fprofile-update=atomic)
+  target_link_options(bspc_compiler_options INTERFACE --coverage)
+endif()

@@ -111,6 +111,27 @@ FileInfo describe(const container::ContainerReader& file) {
   return info;
 }
 
+/// Of the texts and values, which FileInfo has once more.
+std::uint64_t memoryOf(const Metadata& metadata) {
+  std::uint64_t bytes = 0;
+  for (const auto& [key, value] : metadata.entries) {
+    bytes += 2 * sizeof(std::string) + key.capacity() + value.capacity();
+  }
+  for (const ArrayValues& array : metadata.fieldData) {
+    bytes += array.values.capacity();
+    for (const std::string& text : array.strings) bytes += sizeof(std::string) + text.capacity();
+  }
+  return 2 * bytes;
+}
+
+/// What is left of the limits once the file is open.
+DecodeLimits limitsOfDecoding(const container::ContainerReader& file, DecodeLimits limits) {
+  const std::uint64_t used =
+      file.tiles().size() * container::memoryOfTile(file.layout()) + memoryOf(file.head().metadata);
+  limits.memoryBytes -= std::min(limits.memoryBytes, used);
+  return limits;
+}
+
 }  // namespace
 
 class Decoder::Impl {
@@ -118,7 +139,7 @@ class Decoder::Impl {
   Impl(std::shared_ptr<ByteSource> source, const OpenOptions& options)
       : file_(std::move(source), options),
         info_(describe(file_)),
-        limits_(options.limits),
+        limits_(limitsOfDecoding(file_, options.limits)),
         tileDecoder_(file_, limits_) {}
 
   const FileInfo& info() const { return info_; }
@@ -127,8 +148,12 @@ class Decoder::Impl {
   void decodeTiles(const DecodeOptions& options, const TileVisitor& visit);
 
  private:
+  /// Tiles that are in memory for each of several threads: one in its hands, two that wait.
+  static constexpr std::uint64_t kWaiting = 3;
+
   void decodeQuery(const Query& query, const DecodeOptions& options,
                    const std::function<std::uint64_t()>& bytesInUse, const TileVisitor& visit);
+  unsigned threadsFor(const Query& query, const DecodeOptions& options) const;
   DecodedPoints place(const Query& query, std::size_t index, TileContent decoded) const;
   void addArrays(const Query& query, DecodedTileArrays values, DecodedPoints& points) const;
 
@@ -184,6 +209,23 @@ void Decoder::Impl::addArrays(const Query& query, DecodedTileArrays values,
   if (!values.order.empty()) reorderPoints(points, values.order);
 }
 
+/// As many threads as are wished for and can have enough memory each: what is refused for a limit
+/// is so on any number of them.
+unsigned Decoder::Impl::threadsFor(const Query& query, const DecodeOptions& options) const {
+  // What methods take for a point: their own cells, and the values of arrays some times over.
+  constexpr std::uint64_t kMethods = 256;
+  constexpr std::uint64_t kTimes = 4;
+  std::uint64_t most = 1;
+  for (const std::size_t i : query.tiles) {
+    most = std::max(most, pointsUpTo(file_.tiles()[i], query.level));
+  }
+  const std::uint64_t each = kMethods + kTimes * bytesPerPoint(file_, query, options);
+  const std::uint64_t tiles = limits_.memoryBytes / each / most / kWaiting;
+  return static_cast<unsigned>(std::min<std::uint64_t>(
+      {threadCount(options.threads), std::max<std::uint64_t>(query.tiles.size(), 1),
+       std::max<std::uint64_t>(tiles, 1)}));
+}
+
 /// Decodes the tiles of a query, on several threads, and hands them on in order.
 void Decoder::Impl::decodeQuery(const Query& query, const DecodeOptions& options,
                                 const std::function<std::uint64_t()>& bytesInUse,
@@ -191,10 +233,9 @@ void Decoder::Impl::decodeQuery(const Query& query, const DecodeOptions& options
   ProgressScale scale(options.progress, 0, 1);
   SharedProgress progress(scale, query.points);
   progress.report();
-  const unsigned threads = static_cast<unsigned>(std::min<std::size_t>(
-      threadCount(options.threads), std::max<std::size_t>(query.tiles.size(), 1)));
+  const unsigned threads = threadsFor(query, options);
   // Twice as many results as threads wait at the most, each with its share of the memory.
-  const std::uint64_t shares = threads == 1 ? 1 : std::uint64_t{3} * threads;
+  const std::uint64_t shares = threads == 1 ? 1 : kWaiting * threads;
   const auto produce = [&](std::size_t i) {
     const std::uint64_t used = bytesInUse();
     const std::uint64_t free = limits_.memoryBytes > used ? limits_.memoryBytes - used : 0;
@@ -210,6 +251,13 @@ void Decoder::Impl::decodeQuery(const Query& query, const DecodeOptions& options
 
 DecodedPoints Decoder::Impl::decode(const DecodeOptions& options) {
   const Query query = planQuery(file_, options);
+  for (const std::size_t i : query.tiles) {
+    if (query.level >= file_.tiles()[i].lacking) tileDecoder_.methodOf(i);
+  }
+  if (!query.filter && !query.thin) {
+    requireRoom(query.points, bytesPerPoint(file_, query, options), limits_.points,
+                limits_.memoryBytes);
+  }
   DecodedTiles all(limits_, query.points);
   decodeQuery(
       query, options, [&all] { return all.bytes(); },

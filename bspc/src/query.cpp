@@ -145,4 +145,32 @@ std::uint64_t bytesRead(const container::ContainerReader& file, const Query& que
   return bytes;
 }
 
+std::uint64_t bytesPerPoint(const container::ContainerReader& file, const Query& query,
+                            const DecodeOptions& options) {
+  std::uint64_t bytes =
+      sizeof(GridPoint) + (options.wantCounts ? 8U : 0U) + (options.cellLevel ? 8U : 0U);
+  for (const std::size_t a : query.arrays) {
+    const attributes::ArrayShape& shape = file.layout().arrays[a];
+    bytes += shape.components * arrayValueSize(shape.type);
+  }
+  return bytes;
+}
+
+void requireRoom(std::uint64_t points, std::uint64_t bytesPerPoint, std::uint64_t maxPoints,
+                 std::uint64_t maxBytes) {
+  if (points > maxPoints) {
+    throw Error(ErrorCode::LimitExceeded, "the file says that it holds " + std::to_string(points) +
+                                              " points, more than the limit of " +
+                                              std::to_string(maxPoints) +
+                                              "; raise the limit if the file is to be trusted");
+  }
+  if (points > maxBytes / bytesPerPoint) {
+    throw Error(ErrorCode::LimitExceeded,
+                "the file says that it holds " + std::to_string(points) +
+                    " points, which need more memory than the limit of " +
+                    std::to_string(maxBytes) +
+                    " bytes; raise the limit if the file is to be trusted");
+  }
+}
+
 }  // namespace bspc

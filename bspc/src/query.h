@@ -36,4 +36,13 @@ unsigned firstArrayLevel(const container::ContainerReader& file);
 /// Points, or representatives, that a tile has up to a level.
 std::uint64_t pointsUpTo(const container::TileRecord& tile, unsigned level);
 
+/// Bytes of memory that the query gives for each point, texts of strings left out.
+std::uint64_t bytesPerPoint(const container::ContainerReader& file, const Query& query,
+                            const DecodeOptions& options);
+
+/// Throws Error(LimitExceeded) if so many points are more than may be decoded: before anything is
+/// allocated for them, since a few bytes can stand for very many.
+void requireRoom(std::uint64_t points, std::uint64_t bytesPerPoint, std::uint64_t maxPoints,
+                 std::uint64_t maxBytes);
+
 }  // namespace bspc

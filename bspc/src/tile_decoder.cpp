@@ -21,11 +21,32 @@ geometry::DecodedTile middleOnly(const container::TileRecord& record,
 
 }  // namespace
 
+const geometry::GeometryMethod& TileDecoder::methodOf(std::size_t tile) const {
+  const container::TileRecord& record = file_.tiles()[tile];
+  const geometry::GeometryMethod* method =
+      geometry::findGeometryMethod(static_cast<Method>(record.method));
+  if (method == nullptr || record.version > method->version()) {
+    throw Error(ErrorCode::Unsupported,
+                "tile " + std::to_string(tile) + " is coded by method number " +
+                    std::to_string(record.method) + ", version " + std::to_string(record.version) +
+                    ", which this version does not know; use a newer one");
+  }
+  if (record.points > method->maxPoints()) {
+    throw Error(ErrorCode::Corrupt, "tile " + std::to_string(tile) + " claims " +
+                                        std::to_string(record.points) +
+                                        " points, more than its method allows");
+  }
+  return *method;
+}
+
 TileContent TileDecoder::decode(std::size_t tile, const Query& query, const DecodeOptions& options,
                                 std::uint64_t memory, const geometry::PointProgress& progress) {
   const container::TileRecord& record = file_.tiles()[tile];
   const unsigned level = query.level;
   if (level < record.lacking) return {middleOnly(record, options), {}};
+  methodOf(tile);
+  requireRoom(pointsUpTo(record, level), bytesPerPoint(file_, query, options), limits_.points,
+              memory);
   TileContent content;
   geometry::DecodedTile& decoded = content.points;
   decoded = decodePayloads(tile, level, options, memory, progress);
@@ -51,14 +72,6 @@ geometry::DecodedTile TileDecoder::decodePayloads(std::size_t tile, unsigned lev
                                                   std::uint64_t memory,
                                                   const geometry::PointProgress& progress) {
   const container::TileRecord& record = file_.tiles()[tile];
-  const geometry::GeometryMethod* method =
-      geometry::findGeometryMethod(static_cast<Method>(record.method));
-  if (method == nullptr || record.version > method->version()) {
-    throw Error(ErrorCode::Unsupported,
-                "tile " + std::to_string(tile) + " is coded by method number " +
-                    std::to_string(record.method) + ", version " + std::to_string(record.version) +
-                    ", which this version does not know; use a newer one");
-  }
   const std::vector<Bytes> payloads = readPayloads(tile, level);
   geometry::TileToDecode input;
   std::uint64_t payloadBytes = 0;
@@ -77,7 +90,7 @@ geometry::DecodedTile TileDecoder::decodePayloads(std::size_t tile, unsigned lev
   input.maxPoints = limits_.points;
   input.maxBytes = memory > payloadBytes ? memory - payloadBytes : 0;
   input.maxDepth = limits_.depth;
-  return method->decode(input, progress);
+  return methodOf(tile).decode(input, progress);
 }
 
 std::vector<Bytes> TileDecoder::readPayloads(std::size_t tile, unsigned level) {

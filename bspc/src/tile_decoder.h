@@ -23,6 +23,10 @@ class TileDecoder {
   TileDecoder(const container::ContainerReader& file, const DecodeLimits& limits)
       : file_(file), limits_(limits) {}
 
+  /// The method that a tile is coded by. Throws Error(Unsupported) if this version does not have
+  /// it, Error(Corrupt) if the tile claims more points than the method allows.
+  const geometry::GeometryMethod& methodOf(std::size_t tile) const;
+
   /// The tile up to the level of the query, relative to its lower corner, within `memory` bytes.
   /// Throws Error (Corrupt, Unsupported, LimitExceeded, Io).
   TileContent decode(std::size_t tile, const Query& query, const DecodeOptions& options,

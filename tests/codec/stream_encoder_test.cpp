@@ -281,6 +281,40 @@ TEST_F(Streaming, PointsThatAreNotFiniteAreNamedOrDropped) {
   EXPECT_EQ(sortedPoints(decodedNumbers<double>(file)), sortedPoints(xyz));
 }
 
+/// Room for so many bytes, and then none.
+class FullScratch final : public ScratchStorage {
+ public:
+  FullScratch(std::uint64_t room, bool readable) : room_(room), readable_(readable) {}
+  std::uint64_t size() const override { return bytes_.size(); }
+  void read(std::uint64_t offset, Span<std::uint8_t> into) override {
+    if (!readable_) throw Error(ErrorCode::Io, "cannot be read");
+    MemorySource(bytes_).read(offset, into);
+  }
+  void append(ByteView bytes) override {
+    if (bytes_.size() + bytes.size() > room_) throw Error(ErrorCode::Io, "is full");
+    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+  }
+
+ private:
+  std::uint64_t room_;
+  bool readable_;
+  Bytes bytes_;
+};
+
+TEST_F(Streaming, ScratchThatIsFullOrCannotBeReadIsAnError) {
+  const std::vector<float> xyz(3 * kMany, 1.0F);
+  StreamOptions failing = options();
+  for (const std::uint64_t room : {std::uint64_t{0}, std::uint64_t{3} << 20, ~std::uint64_t{0}}) {
+    failing.scratch = [room] { return std::make_unique<FullScratch>(room, false); };
+    try {
+      encodedStream(ScalarType::Float32, xyz, failing);
+      FAIL() << room;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::Io);
+    }
+  }
+}
+
 TEST_F(Streaming, WhatIsNotPossibleIsRefused) {
   const std::vector<double> xyz = centimetres(kMany);
   StreamOptions wishes = options();

@@ -142,7 +142,7 @@ void runEncode(const EncodeArguments& args) {
   options.memoryBytes = static_cast<std::uint64_t>(args.memory * (1 << 30));
   options.scratch = [] { return std::make_unique<ScratchFile>(); };
   OutputFile output(args.output, args.force);
-  StreamSink sink(output.stream());
+  OutputSink sink(output);
   EncodeReport report;
   {
     ProgressBar reading("reading", args.quiet);

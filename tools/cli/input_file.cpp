@@ -47,6 +47,7 @@ std::shared_ptr<ByteSource> InputFile::source() {
     buffer_.insert(buffer_.end(), data, data + std::cin.gcount());
     if (interrupted()) throw Error(ErrorCode::Cancelled, name_ + ": stopped as asked");
   }
+  if (std::cin.bad()) throw Error(ErrorCode::Io, name_ + ": cannot be read to its end");
   return std::make_shared<MemorySource>(buffer_);
 }
 

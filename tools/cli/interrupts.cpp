@@ -32,6 +32,10 @@ void noteInterrupt(int signal) {
 void catchInterrupts() {
   std::signal(SIGINT, noteInterrupt);
   std::signal(SIGTERM, noteInterrupt);
+  // nohup has it ignored.
+  if (std::signal(SIGHUP, noteInterrupt) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
+  // A file that grows beyond what is allowed is then an error of writing.
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 bool interrupted() { return interruptSeen != 0; }

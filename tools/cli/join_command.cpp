@@ -33,7 +33,7 @@ void runJoin(const JoinArguments& args) {
     naming(files.back()->name(), [&] { return Decoder(sources.back()).info().points; });
   }
   OutputFile output(args.output, args.force);
-  StreamSink sink(output.stream());
+  OutputSink sink(output);
   JoinReport report;
   {
     ProgressBar bar("joining", args.quiet);

@@ -38,6 +38,10 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? bspc::cli::kSuccess : bspc::cli::kUsage;
   }
+  std::cout.flush();
+  if (!std::cout) {
+    throw bspc::Error(bspc::ErrorCode::Io, "standard output: could not be written");
+  }
   return bspc::cli::kSuccess;
 }
 
@@ -45,6 +49,8 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   bspc::cli::catchInterrupts();
+  // Or errors of reading standard input look like its end.
+  std::ios::sync_with_stdio(false);
   try {
     return run(argc, argv);
   } catch (const bspc::cli::UsageError& error) {

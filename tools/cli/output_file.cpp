@@ -9,6 +9,7 @@
 
 #include "bspc/error.h"
 #include "cli/interrupts.h"
+#include "cli/naming.h"
 
 namespace bspc::cli {
 
@@ -75,6 +76,14 @@ void OutputFile::commit() {
   if (error) fail(path_, "could not be put in its place (" + error.message() + ")");
   temporary_.clear();
   setUnfinishedFile("");
+}
+
+void OutputSink::write(ByteView bytes) {
+  try {
+    sink_.write(bytes);
+  } catch (const Error& error) {
+    throw NamedError(error.code(), name_ + ": " + error.what());
+  }
 }
 
 }  // namespace bspc::cli

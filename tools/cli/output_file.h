@@ -5,6 +5,8 @@
 #include <ostream>
 #include <string>
 
+#include "bspc/io.h"
+
 namespace bspc::cli {
 
 /// A file that is there whole or not at all: it is written beside its place and renamed when it
@@ -32,6 +34,17 @@ class OutputFile {
   bool force_;
   bool standardOutput_;
   std::ofstream file_;
+};
+
+/// What an encoder writes to an output file, which must outlive it. Its errors name that file.
+class OutputSink final : public ByteSink {
+ public:
+  explicit OutputSink(OutputFile& file) : name_(file.name()), sink_(file.stream()) {}
+  void write(ByteView bytes) override;
+
+ private:
+  std::string name_;
+  StreamSink sink_;
 };
 
 }  // namespace bspc::cli

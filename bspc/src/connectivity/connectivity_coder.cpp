@@ -12,6 +12,7 @@
 #include "connectivity/faces_section.h"
 #include "connectivity/mesh_preparation.h"
 #include "connectivity/vertex_cells.h"
+#include "saturating.h"
 
 namespace bspc::connectivity {
 
@@ -371,13 +372,14 @@ class MeshDecoder {
   MeshDecoder(const MeshPoints& points, ByteView payload, std::uint64_t maxBytes,
               const std::function<Cells(std::uint64_t)>& surface)
       : points_(points), maxBytes_(maxBytes), surface_(surface), coder_(payload) {
-    check(points.points.size() * kBytesPerPoint);
+    check(0);
     places_ = placesOf(points);
   }
 
   MeshCells decode() {
     MeshHead head;
     head.code(coder_);
+    checkCells(head.vertices, head.lines);
     if (head.faces) {
       if (head.version == kWithSurface) {
         decodeAroundSurface();
@@ -402,17 +404,29 @@ class MeshDecoder {
  private:
   /// Of positions, their index, and what the front knows of each vertex.
   static constexpr std::uint64_t kBytesPerPoint = 160;
+  static constexpr std::uint64_t kBytesPerCell = sizeof(std::uint32_t);
+  static constexpr std::uint64_t kTooManyCells = std::uint64_t{1} << 60;
   /// Of the edges, and the places, that the order is coded by.
   static constexpr std::uint64_t kOrderBytesPerCorner = 40;
   static constexpr std::uint64_t kOrderBytesPerFace = 40;
 
-  /// Throws unless the cells and `bytes` more are within the limits.
+  /// Throws if there is no room for so many cells, before the first of them is decoded: those that
+  /// have no points take hardly any bytes of a file.
+  void checkCells(std::uint64_t some, std::uint64_t others) const {
+    const std::uint64_t cells = saturatingAdd(some, others);
+    check(cells < kTooManyCells ? cells * kBytesPerCell : maxBytes_ + 1);
+  }
+
+  /// Throws unless what is known of the points, the cells, and `bytes` more are within the limits.
   void check(std::uint64_t bytes) const {
+    bytes = saturatingAdd(bytes, points_.points.size() * kBytesPerPoint);
     for (const Cells* cells : {&cells_.vertices, &cells_.lines, &cells_.faces}) {
       if (cells->indices.size() > kMostNumbers) {
         throw Error(ErrorCode::Corrupt, "the mesh has more corners than its format allows");
       }
-      bytes += 4 * (std::uint64_t{cells->indices.capacity()} + cells->ends.capacity());
+      // While an array grows, the old one and one of twice its size stand side by side.
+      bytes = saturatingAdd(
+          bytes, 3 * 4 * (std::uint64_t{cells->indices.capacity()} + cells->ends.capacity()));
     }
     if (bytes <= maxBytes_) return;
     throw Error(ErrorCode::LimitExceeded,
@@ -424,6 +438,7 @@ class MeshDecoder {
   void decodeFaces() {
     FacesHead head;
     head.code(coder_);
+    checkCells(head.regular, head.irregular);
     std::optional<Welding> welding;
     if (head.welded) welding.emplace(points_.points);
     const std::vector<Position> places =
@@ -431,7 +446,7 @@ class MeshDecoder {
     UnknownFaces truth;
     Cells irregular;
     FacesSection<SymbolReader, UnknownFaces> section(coder_, head, welding ? places : places_);
-    section.codeVertices(truth, irregular, [&](std::size_t bytes) { check(bytes); });
+    section.codeVertices(truth, irregular, [&](std::size_t bytes) { check(3 * bytes); });
     const Span<const std::uint32_t> corners = section.front().allCorners();
     // The faces themselves, the points of their corners, and the front until they are there.
     check(section.front().bytes() + 12 * (corners.size() + irregular.indices.size()));
@@ -447,9 +462,8 @@ class MeshDecoder {
 
   void decodeAroundSurface() {
     if (!surface_) throw Error(ErrorCode::Corrupt, "the faces are those of no surface");
-    const std::uint64_t used = points_.points.size() * kBytesPerPoint;
-    cells_.faces = surface_(maxBytes_ - used);
-    check(used);
+    cells_.faces = surface_(maxBytes_ - points_.points.size() * kBytesPerPoint);
+    check(0);
     SurfaceHead head;
     head.code(coder_);
     FlipBits<SymbolReader> flips(coder_);
@@ -458,10 +472,11 @@ class MeshDecoder {
       std::reverse(cells_.faces.indices.begin() + cells_.faces.first(i),
                    cells_.faces.indices.begin() + cells_.faces.ends[i]);
     }
+    checkCells(head.irregular, 0);
     if (head.irregular == 0) return;
     const VertexIndex index(places_);
     PlainCells<SymbolReader>(coder_, places_, index, PlainCells<SymbolReader>::Shape::Face)
-        .code(head.irregular, cells_.faces, [&] { check(used); });
+        .code(head.irregular, cells_.faces, [&] { check(0); });
   }
 
   void decodeOrder() {

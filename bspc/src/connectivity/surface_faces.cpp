@@ -33,7 +33,7 @@ SurfaceFaces codeSurface(Coder& coder, const SurfaceHead& head, Truth& truth, st
   FaceFront front(0, head.triangles);
   SurfaceCoder<Coder, Truth> surface(coder, front, truth, points);
   surface.code(head.faces, [&](std::uint64_t corners) {
-    check(front.bytes() + kBytesPerVertex * front.vertices() + kBytesPerCorner * corners);
+    check(3 * front.bytes() + kBytesPerVertex * front.vertices() + kBytesPerCorner * corners);
   });
   SurfaceFaces result;
   result.vertices = static_cast<std::uint32_t>(front.vertices());

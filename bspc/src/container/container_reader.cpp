@@ -140,7 +140,8 @@ bool ContainerReader::readIndex(std::uint64_t firstTile, const DecodeLimits& lim
     }
     ByteReader in(end.content, "the end block", end.contentOffset);
     indexOffset = in.unsignedLittle(kEndContent);
-  } catch (const Error&) {
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::Io) throw;
     return false;  // whatever stands there is not an end block
   }
   if (indexOffset < firstTile || indexOffset >= size - kEndBlock) {
@@ -176,7 +177,8 @@ bool ContainerReader::readIndex(std::uint64_t firstTile, const DecodeLimits& lim
 
 void ContainerReader::recoverTiles(std::uint64_t firstTile, const DecodeLimits& limits) {
   std::uint64_t offset = firstTile;
-  while (head_.tiles.size() < limits.tiles) {
+  const std::uint64_t most = std::min(limits.tiles, limits.memoryBytes / memoryOfTile(layout_));
+  while (head_.tiles.size() < most) {
     std::vector<std::uint64_t> chunkOffsets;
     TileRecord tile;
     std::uint64_t next = 0;
@@ -187,7 +189,8 @@ void ContainerReader::recoverTiles(std::uint64_t firstTile, const DecodeLimits& 
       tile = readTileRecord(in, layout_);
       in.expectEnd();
       next = block.end;
-    } catch (const Error&) {
+    } catch (const Error& error) {
+      if (error.code() == ErrorCode::Io) throw;
       return;  // the tiles before are what there is
     }
     for (const std::uint64_t payload : tile.chunkSizes) {

@@ -111,6 +111,15 @@ void writeTileTable(ByteWriter& out, const TileLayout& layout,
   for (const TileRecord& tile : tiles) writeTileRecord(out, layout, tile);
 }
 
+std::uint64_t memoryOfTile(const TileLayout& layout) {
+  // The record, what is told of it, and where it stands; while arrays of these grow, the old ones
+  // stand beside them. Columns have a size and an offset even where the file has no chunk.
+  constexpr std::uint64_t kRecords = 4 * sizeof(TileRecord);
+  return kRecords + 2 * sizeof(geometry::LayerSummary) * layout.layers +
+         2 * layout.arrays.size() * sizeof(TileArray) +
+         4 * layout.columns() * sizeof(std::uint64_t);
+}
+
 std::vector<TileRecord> readTileTable(ByteReader& in, const TileLayout& layout,
                                       const DecodeLimits& limits,
                                       std::vector<std::size_t>* recordSizes) {
@@ -122,8 +131,7 @@ std::vector<TileRecord> readTileTable(ByteReader& in, const TileLayout& layout,
   }
   std::vector<TileRecord> tiles;
   for (std::uint64_t i = 0; i < count; ++i) {
-    // A size and an offset for each column, which the file may not have.
-    if ((i + 1) * layout.columns() > limits.memoryBytes / (2 * sizeof(std::uint64_t))) {
+    if (i >= limits.memoryBytes / memoryOfTile(layout)) {
       throw Error(ErrorCode::LimitExceeded,
                   "the table of tiles needs more memory than the limit of " +
                       std::to_string(limits.memoryBytes) +

@@ -47,6 +47,8 @@ FileHead readHead(ByteReader& in, const DecodeLimits& limits);
 
 void writeTileTable(ByteWriter& out, const TileLayout& layout,
                     const std::vector<TileRecord>& tiles);
+/// Bytes of memory that a tile of an open file takes at most, before it is decoded.
+std::uint64_t memoryOfTile(const TileLayout& layout);
 /// The table; `recordSizes` receives the bytes that each record takes.
 std::vector<TileRecord> readTileTable(ByteReader& in, const TileLayout& layout,
                                       const DecodeLimits& limits,

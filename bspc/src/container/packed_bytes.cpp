@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <new>
 #include <string>
 
 #include "bspc/error.h"
@@ -17,10 +18,18 @@ enum Packing : unsigned { kPlain = 0, kZstd = 1 };
 
 using Stream = std::unique_ptr<ZSTD_DStream, decltype(&ZSTD_freeDStream)>;
 
+[[noreturn]] void failLimit(std::uint64_t maxBytes) {
+  throw Error(ErrorCode::LimitExceeded,
+              "what a file says beside its points takes more than the limit of " +
+                  std::to_string(maxBytes) +
+                  " bytes; raise the limit of memory if the file is to be trusted");
+}
+
 Bytes unpack(ByteReader& in, std::uint64_t maxBytes) {
   const ByteView packed = in.bytes(in.remaining());
   checkFrame(in, packed);
   const Stream stream(ZSTD_createDStream(), &ZSTD_freeDStream);
+  if (!stream) throw std::bad_alloc();
   Bytes bytes;
   Bytes piece(std::size_t{1} << 16);
   ZSTD_inBuffer input{packed.data(), packed.size(), 0};
@@ -28,13 +37,7 @@ Bytes unpack(ByteReader& in, std::uint64_t maxBytes) {
     ZSTD_outBuffer output{piece.data(), piece.size(), 0};
     const std::size_t left = ZSTD_decompressStream(stream.get(), &output, &input);
     if (ZSTD_isError(left) != 0) in.fail("damaged compressed bytes");
-    if (output.pos > maxBytes || bytes.size() > maxBytes - output.pos) {
-      throw Error(ErrorCode::LimitExceeded,
-                  "what a file says beside its points takes more than the limit of " +
-                      std::to_string(maxBytes) +
-                      " bytes; raise the limit of memory if the file "
-                      "is to be trusted");
-    }
+    if (output.pos > maxBytes || bytes.size() > maxBytes - output.pos) failLimit(maxBytes);
     bytes.insert(bytes.end(), piece.begin(),
                  piece.begin() + static_cast<std::ptrdiff_t>(output.pos));
     if (left == 0) break;

@@ -20,20 +20,22 @@ class CellOutput {
   /// ids are asked of; of the last layer every leaf is a cell.
   void leaf(const GridPoint& point, std::uint64_t count, std::uint64_t id) {
     if (ownCells_) id = leaves_++;
+    budget_.beforeAppend(out_, count);
     for (std::uint64_t left = count; left > 0; --left) append(point, 1, id);
   }
   void representative(const GridPoint& point, std::uint64_t count, std::uint64_t id) {
+    budget_.beforeAppend(out_);
     append(point, count, id);
   }
-  /// Throws Error(LimitExceeded) if cells take more memory than the call may have.
-  void checkBytes(std::uint64_t bytes) const { budget_.checkBytes(bytes); }
+  /// Says how much memory cells take from now on; throws Error(LimitExceeded) if that is more than
+  /// the call may have.
+  void hold(std::uint64_t bytes) { budget_.hold(out_, bytes); }
 
  private:
   /// Points between two calls of the progress callback.
   static constexpr std::uint64_t kProgressStep = 1U << 16;
 
   void append(const GridPoint& point, std::uint64_t count, std::uint64_t id) {
-    budget_.beforeAppend(out_);
     out_.points.push_back(point);
     if (tile_.wantCounts) out_.counts.push_back(count);
     if (tile_.cellLevel) out_.cellIds.push_back(id);

@@ -96,6 +96,8 @@ class GeometryMethod {
   virtual unsigned version() const = 0;
   /// Bits that the grid of a tile may have along each axis.
   virtual unsigned maxBits() const { return 32; }
+  /// Points that a tile may have.
+  virtual std::uint64_t maxPoints() const { return 0xFFFFFFFF; }
   /// Whether stopPoints and stopLevel mean anything to it.
   virtual bool canStop() const { return false; }
 

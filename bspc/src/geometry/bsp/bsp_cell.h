@@ -17,7 +17,8 @@ struct BspCell {
   std::uint64_t id = 0;     ///< of its ancestor in the layer that cell ids are asked of
 
   bool boxOnly() const { return shape.empty(); }
-  std::uint64_t bytes() const { return sizeof(BspCell) + shape.size(); }
+  /// Of the shape, beside the cell itself.
+  std::uint64_t bytes() const { return shape.capacity(); }
 };
 
 }  // namespace bspc::geometry

@@ -12,6 +12,7 @@
 #include "geometry/bsp/bsp_cell.h"
 #include "geometry/bsp/bsp_count_model.h"
 #include "geometry/bsp/cut_parameters.h"
+#include "geometry/cell_growth.h"
 #include "geometry/kd/kd_count_model.h"
 
 namespace bspc::geometry {
@@ -55,10 +56,11 @@ class BspTreeCoder {
     coder_ = &coder;
     while (anyOpen() && coder.bit(deeper_, frontier_.size() < enough)) {
       std::vector<BspCell> next;
-      std::uint64_t bytes = 0;  // of this level's cells and of the next one's
+      std::uint64_t bytes = bytesOf(frontier_);  // and of the shapes of both levels' cells
       for (const BspCell& cell : frontier_) bytes += cell.bytes();
       for (BspCell& cell : frontier_) {
         const std::size_t before = next.size();
+        makeRoom(points_, next, 2, bytes);
         if (open(cell, level_)) {
           cut(cell, level_, next);
           cell.shape = {};
@@ -66,7 +68,7 @@ class BspTreeCoder {
           next.push_back(std::move(cell));
         }
         for (std::size_t i = before; i < next.size(); ++i) bytes += next[i].bytes();
-        points_.cellsInMemory(bytes);
+        points_.cellsInMemory(bytes + bytesOf(next));
       }
       frontier_.swap(next);
       ++level_;

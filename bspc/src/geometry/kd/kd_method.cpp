@@ -47,7 +47,7 @@ class SortedPoints {
   void emitUndivided(const GridPoint& middle, const KdCell& cell) {
     decoded_.insert(decoded_.end(), static_cast<std::size_t>(cell.count), middle);
   }
-  static void cellsInMemory(std::uint64_t /*cells*/) {}
+  static void cellsInMemory(std::uint64_t /*bytes*/) {}
   std::vector<GridPoint> takeDecoded() { return std::move(decoded_); }
 
  private:
@@ -74,8 +74,7 @@ class CollectedPoints {
   void emitUndivided(const GridPoint& point, const KdCell& cell) {
     output_.leaf(point, cell.count, cell.id);
   }
-  /// A level of the tree at most doubles the cells, so this is called often enough.
-  void cellsInMemory(std::uint64_t cells) const { output_.checkBytes(cells * sizeof(KdCell)); }
+  void cellsInMemory(std::uint64_t bytes) { output_.hold(bytes); }
   CellOutput& output() { return output_; }
 
  private:

@@ -6,6 +6,7 @@
 
 #include "entropy/adaptive_bit.h"
 #include "entropy/symbol_coder.h"
+#include "geometry/cell_growth.h"
 #include "geometry/geometry_method.h"
 #include "geometry/kd/kd_count_model.h"
 #include "geometry/kd/kd_schedule.h"
@@ -30,7 +31,7 @@ struct KdCell {
 ///   GridPoint at(std::uint64_t j)                             the j-th leaf point
 ///   void emit(const GridPoint&, std::uint64_t count, const KdCell&)
 ///   void emitUndivided(const GridPoint&, const KdCell&)       a cell that a lossy coding stops at
-///   void cellsInMemory(std::uint64_t cells)                   throws if they are too many
+///   void cellsInMemory(std::uint64_t bytes)                   throws if they are too many
 /// On the decoder's side the first two return anything; on the encoder's emit() may do nothing.
 template <class Coder, class Points>
 class KdTreeCoder {
@@ -60,16 +61,17 @@ class KdTreeCoder {
     while (depth_ < schedule_.depth() && coder.bit(deeper_, frontier_.size() < enough)) {
       std::vector<KdCell> next;
       for (const KdCell& cell : frontier_) {
+        makeRoom(points_, next, 2, bytesOf(frontier_));
         if (stops(cell)) {
           next.push_back(cell);
         } else {
           splitInto(cell, next);
         }
       }
-      points_.cellsInMemory(frontier_.size() + next.size());
       frontier_.swap(next);
       ++depth_;
     }
+    points_.cellsInMemory(bytesOf(frontier_));
   }
 
   /// The last layer: every cell is refined down to its points, one after the other.

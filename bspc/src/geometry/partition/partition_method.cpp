@@ -58,7 +58,7 @@ class CollectedPoints {
   void emit(const GridPoint& point, std::uint64_t count, const PartitionCell& cell) {
     output_.leaf(point, count, cell.id);
   }
-  void cellsInMemory(std::uint64_t bytes) const { output_.checkBytes(bytes); }
+  void cellsInMemory(std::uint64_t bytes) { output_.hold(bytes); }
   CellOutput& output() { return output_; }
 
  private:

@@ -9,6 +9,7 @@
 #include "bspc/error.h"
 #include "entropy/adaptive_bit.h"
 #include "entropy/symbol_coder.h"
+#include "geometry/cell_growth.h"
 #include "geometry/kd/kd_count_model.h"
 #include "geometry/kd/kd_schedule.h"
 #include "geometry/partition/multiplicity_model.h"
@@ -49,12 +50,13 @@ class PartitionTreeCoder {
     while (depth_ < schedule_.depth() && coder.bit(deeper_, frontier_.size() < enough)) {
       std::vector<PartitionCell> next;
       std::vector<std::size_t> nextParents;
+      const std::uint64_t known = bytesOf(counted) + bytesOf(frontier_) + bytesOf(parents);
       for (std::size_t i = 0; i < frontier_.size(); ++i) {
+        makeRoom(points_, next, kMaxChildren, known + bytesOf(nextParents));
+        makeRoom(points_, nextParents, kMaxChildren, known + bytesOf(next));
         split(frontier_[i], depth_, next);
         nextParents.resize(next.size(), parents[i]);
       }
-      constexpr std::uint64_t kEach = sizeof(PartitionCell) + sizeof(std::size_t);
-      points_.cellsInMemory((counted.size() + frontier_.size() + next.size()) * kEach);
       frontier_.swap(next);
       parents.swap(nextParents);
       depth_ += steps(depth_);
@@ -65,6 +67,7 @@ class PartitionTreeCoder {
       countCells(begin, end, counted[parents[begin]].count);
       begin = end;
     }
+    points_.cellsInMemory(bytesOf(frontier_));
   }
 
   /// The last layer: every cell is refined down to its points, one after the other, depth first.

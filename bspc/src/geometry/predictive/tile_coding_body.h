@@ -117,7 +117,7 @@ class CollectedPoints {
     if (!cells_.empty()) cells_.push_back(cells_[parent]);
   }
   void working(std::uint64_t bytes) {
-    output_.checkBytes(bytes + 3 * cells_.size() * sizeof cells_[0]);
+    output_.hold(bytes + 3 * cells_.size() * sizeof cells_[0]);
     if (++calls_ % kProgressStep == 0 && progress_) progress_(out_.points.size());
   }
 

@@ -84,6 +84,8 @@ std::uint32_t spreadOf(const GridPoint& extent) {
 
 }  // namespace
 
+std::uint64_t SurfaceMethod::maxPoints() const { return kMostPoints; }
+
 EncodedTile SurfaceMethod::encode(const TileInput& tile, const PointProgress& progress) const {
   const std::uint64_t count = tile.points.size();
   if (count > kMostPoints) {
@@ -141,8 +143,8 @@ DecodedTile SurfaceMethod::decode(const TileToDecode& tile, const PointProgress&
   entropy::SymbolReader coder(tile.payloads.back());
   const SurfaceFaces faces =
       connectivity::decodeSurface(coder, static_cast<std::uint32_t>(tile.points),
-                                  [&](std::uint64_t bytes) { output.checkBytes(bytes); });
-  output.checkBytes(bytesFor(faces));
+                                  [&](std::uint64_t bytes) { output.hold(bytes); });
+  output.hold(bytesFor(faces) + std::uint64_t{faces.vertices} * sizeof(GridPoint));
   std::vector<GridPoint> vertices(faces.vertices);
   std::uint64_t next = 0;
   const auto put = [&](std::uint64_t i, const GridPoint& place) {

@@ -11,6 +11,7 @@ class SurfaceMethod : public GeometryMethod {
  public:
   Method id() const override { return Method::Surface; }
   unsigned version() const override { return 0; }
+  std::uint64_t maxPoints() const override;
   EncodedTile encode(const TileInput& tile, const PointProgress& progress) const override;
   DecodedTile decode(const TileToDecode& tile, const PointProgress& progress) const override;
 };
