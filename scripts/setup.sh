@@ -11,6 +11,8 @@ lint_packages=(clang-format clang-tidy)
 compiler_packages=(clang)
 # libFuzzer, and what tells the lines of a stack.
 fuzz_packages=(clang libclang-rt-dev llvm)
+coverage_packages=(gcovr)
+valgrind_packages=(valgrind)
 peer_packages=(libdraco-dev draco)
 plot_packages=(python3-matplotlib)
 # dpkg-dev finds out what a package depends on; the last three render without a screen.
@@ -27,8 +29,8 @@ paraview_python_folder=build/paraview-python
 
 usage() {
   cat <<'END'
-Usage: scripts/setup.sh [--lint] [--vtk] [--openmesh] [--paraview] [--compilers] [--fuzz] [--peers]
-                        [--plots] [--for-download PACKAGE]
+Usage: scripts/setup.sh [--lint] [--vtk] [--openmesh] [--paraview] [--compilers] [--fuzz]
+                        [--coverage] [--valgrind] [--peers] [--plots] [--for-download PACKAGE]
 
 Installs the Debian 12 packages that building and testing bspc needs; does nothing where they are
 installed. Needs root or sudo only if something is missing.
@@ -40,6 +42,8 @@ installed. Needs root or sudo only if something is missing.
                           into build/paraview-python
   --compilers             also clang, for scripts/compilers.sh
   --fuzz                  also clang with libFuzzer, for scripts/fuzz.sh
+  --coverage              also gcovr, for scripts/coverage.sh
+  --valgrind              also Valgrind, for scripts/valgrind.sh
   --peers                 also the coders that benchmarks/peers compares bspc with
   --plots                 also Matplotlib, for the plots of benchmarks
   --for-download PACKAGE  also make sure that apt-get knows PACKAGE, without installing it
@@ -63,6 +67,8 @@ while (($# > 0)); do
     --lint) wanted+=("${lint_packages[@]}") ;;
     --vtk) wanted+=("${vtk_packages[@]}") ;;
     --openmesh) wanted+=("${openmesh_packages[@]}") ;;
+    --coverage) wanted+=("${coverage_packages[@]}") ;;
+    --valgrind) wanted+=("${valgrind_packages[@]}") ;;
     --compilers) wanted+=("${compiler_packages[@]}") ;;
     --fuzz) wanted+=("${fuzz_packages[@]}") ;;
     --peers) wanted+=("${peer_packages[@]}") ;;

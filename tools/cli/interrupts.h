@@ -4,8 +4,9 @@
 
 namespace bspc::cli {
 
-/// Makes the first interrupt (Ctrl-C, a closed terminal) stop the work under way through the progress callbacks, so
-/// that nothing half-written stays behind. A second one ends the program at once.
+/// Makes the first interrupt (Ctrl-C, a closed terminal) stop the work under way through the
+/// progress callbacks, so that nothing half-written stays behind. A second one ends the program at
+/// once.
 void catchInterrupts();
 bool interrupted();
 

@@ -6,8 +6,8 @@ namespace bspc {
 
 /// Bounds on what decoding a file may cost. Nothing is ever allocated on a file's word: what it
 /// claims is checked before anything is done for it, output grows as points are decoded, and the
-/// first bound that is reached ends it with Error(LimitExceeded). Raise them for larger files, lower
-/// them for untrusted ones.
+/// first bound that is reached ends it with Error(LimitExceeded). Raise them for larger files,
+/// lower them for untrusted ones.
 ///
 /// Whatever a file of S bytes says, opening and decoding it allocates at a time at most
 ///
