@@ -15,10 +15,9 @@
 #include "cli/model_files.h"
 #include "cli/naming.h"
 #include "cli/progress_bar.h"
-#include "cli/source_options.h"
+#include "cli/shared_options.h"
 #include "cli/text.h"
 #include "cli/usage_error.h"
-#include "cli/whole_points.h"
 
 namespace bspc::cli {
 

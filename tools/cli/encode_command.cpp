@@ -13,10 +13,9 @@
 #include "cli/output_file.h"
 #include "cli/progress_bar.h"
 #include "cli/scratch_file.h"
-#include "cli/source_options.h"
+#include "cli/shared_options.h"
 #include "cli/text.h"
 #include "cli/usage_error.h"
-#include "cli/whole_points.h"
 #include "formats/wording.h"
 
 namespace bspc::cli {

@@ -9,7 +9,7 @@
 #include "cli/input_file.h"
 #include "cli/mesh_comparison.h"
 #include "cli/naming.h"
-#include "cli/query_options.h"
+#include "cli/shared_options.h"
 #include "cli/text.h"
 #include "cli/usage_error.h"
 #include "formats/wording.h"

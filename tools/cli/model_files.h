@@ -1,9 +1,13 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "bspc/arrays.h"
+#include "bspc/mesh.h"
+#include "bspc/point_set.h"
 #include "bspc/stream_encoder.h"
 #include "cli/array_choice.h"
 #include "cli/input_file.h"
@@ -67,6 +71,26 @@ class ModelPoints final : public PointReader {
   std::vector<std::size_t> chosen_;
   /// One for each array of the file.
   std::vector<ArrayValues> all_;
+};
+
+/// The points of a model file in memory, with the arrays and cells that are wanted of it.
+class WholePoints {
+ public:
+  /// Reads to the end of the model, or the first `most` points alone, which then have no cells.
+  explicit WholePoints(ModelPoints& points, std::uint64_t most = UINT64_MAX);
+
+  /// Must not outlive this.
+  PointSetView view() const;
+  std::uint64_t size() const { return positions_.size() / (3 * scalarSize(type_)); }
+  /// Whether the model has more points.
+  bool isCut() const { return isCut_; }
+
+ private:
+  ScalarType type_;
+  std::vector<std::uint8_t> positions_;
+  std::vector<ArrayValues> values_;
+  MeshCells mesh_;
+  bool isCut_ = false;
 };
 
 }  // namespace bspc::cli

@@ -1,13 +1,33 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
 #include <string>
 
+#include "bspc/decoder.h"
 #include "bspc/grid.h"
 #include "cli/model_files.h"
 #include "formats/model.h"
 
 namespace bspc::cli {
+
+// Options that several commands have.
+
+/// The options that choose a part of a file.
+struct QueryArguments {
+  std::optional<unsigned> level;
+  std::optional<std::uint64_t> maxPoints;
+  std::string box;
+
+  bool any() const { return level || maxPoints || !box.empty(); }
+};
+
+/// `args` must live as long as the command.
+void addQueryOptions(CLI::App& command, QueryArguments& args);
+
+/// What they ask of a decoder. Throws UsageError for a box that is none.
+DecodeOptions decodeOptions(const QueryArguments& args);
 
 /// What the user asks of a model on its way to an encoder.
 struct SourceArguments {
