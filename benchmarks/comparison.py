@@ -123,7 +123,7 @@ class PointSets:
     def from_file(self, group, path) -> Optional[PointSet]:
         """None if the model cannot be read, or is one of the smallest of many."""
         try:
-            points = self._made(group, pathlib.Path(path).stem, "read", path, self.bits)
+            points = self._made(group, pathlib.Path(path).name, "read", path, self.bits)
         except StepFailed as error:
             if group == "files":
                 sys.exit("compare: %s" % error)
