@@ -2,9 +2,15 @@
 
 import json
 import os
+import sys
 import unittest
 
 from command_support import CommandTest, column, lattice_cloud, read_points, write_ply
+
+
+SOURCE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+sys.path.insert(0, os.path.join(SOURCE, "tests", "conformance"))
+from draft import Draft  # noqa: E402
 
 
 class DamageTest(CommandTest):
@@ -19,6 +25,18 @@ class DamageTest(CommandTest):
         """The message of `decode`, which must write nothing, about a file of these bytes."""
         self.write_bytes("bad.bspc", data)
         return self.refuse("bad.bspc", "decode", "bad.bspc", "out.ply", *options)
+
+
+class CoarseLevels(DamageTest):
+    def test_are_verified_too(self):
+        with open(os.path.join(SOURCE, "Testing/Data/frozen_1.0/kd_noise.bspc"), "rb") as file:
+            draft = Draft(file.read())
+        self.write_bytes("good.bspc", draft.bytes())
+        self.succeed("verify", "good.bspc")
+        # One representative instead of more; the points themselves are right.
+        draft.tiles[0].overrides["layers"] = b"\1\1"
+        self.write_bytes("bad.bspc", draft.bytes())
+        self.refuse("bad.bspc", "verify", "bad.bspc")
 
 
 class Flips(DamageTest):

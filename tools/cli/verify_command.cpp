@@ -325,6 +325,17 @@ std::string comparisonText(const VerifyArguments& args, const FileInfo& info,
   return ", those of " + args.against + arrays + cells + ", " + errorText(fit.exact, fit.maxError);
 }
 
+/// What coarse levels say of themselves; all that they are made of was decoded with the last one.
+void verifyCoarseLevels(Decoder& decoder, unsigned threads) {
+  DecodeOptions options;
+  options.threads = threads;
+  options.arrays = std::vector<std::string>();
+  for (unsigned level = 0; level + 1 < decoder.info().layers.size(); ++level) {
+    options.level = level;
+    decoder.decodeTiles(options, [](const DecodedPoints&) {});
+  }
+}
+
 void runVerify(const VerifyArguments& args) {
   InputFile input(args.input);
   Decoder decoder = naming(input.name(), [&] { return Decoder(input.source()); });
@@ -336,6 +347,7 @@ void runVerify(const VerifyArguments& args) {
     options.progress = bar.callback();
     options.threads = args.threads;
     naming(input.name(), [&] {
+      verifyCoarseLevels(decoder, args.threads);
       if (!decoder.info().mesh.empty()) {
         DecodedPoints all = decoder.decode(options);
         count = all.points.size();
