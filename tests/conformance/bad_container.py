@@ -95,6 +95,7 @@ def streaming_rules(good: bytes) -> Iterator[BadFile]:
     cases.set("a required block that is unknown", UNSUPPORTED, before_index=[(LATER_REQUIRED, b"")])
     cases.set("a head that goes on", head_tail=b"\0")
     cases.set("an optional block between tiles", behind_first=[(LATER_OPTIONAL, b"")])
+    cases.tile("chunks that reach into the index", sizes=varint(1 << 20))
     yield from cases.files
     yield "a streaming file without its End block", TRUNCATED, good[:-14]
 

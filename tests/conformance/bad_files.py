@@ -32,6 +32,7 @@ from bad_payloads import (
     mesh_rules,
     partition_rules,
     predictive_rules,
+    streaming_mesh_rules,
     surface_rules,
 )
 from content import Content
@@ -63,6 +64,7 @@ def all_bad_files() -> Iterator[BadFile]:
     yield from predictive_rules(good("predictive_terrain_bits"))
     yield from mesh_rules(good("mesh"))
     yield from cell_array_rules(good("all_cells"), good("joined_cells"))
+    yield from streaming_mesh_rules(good("mesh_streaming"))
     yield from surface_rules(good("surface_mesh"), good("random_surface_647"))
 
 

@@ -315,3 +315,14 @@ def cell_array_rules(good: bytes, joined: bytes) -> Iterator[BadFile]:
     cases.set("Mesh blocks that overlap", mesh_blocks=[draft.mesh_blocks[0], second.bytes()])
     cases.set("a Mesh block too few", "truncated", mesh_blocks=draft.mesh_blocks[:1])
     yield from cases.files
+
+
+def streaming_mesh_rules(good: bytes) -> Iterator[BadFile]:
+    """Sections 2 and 15, of a streaming file with a Mesh block."""
+    content = Draft(good).mesh_blocks[0]
+    size = varint(len(content))
+    for what, more in (("the index", 8), ("the End block", 40), ("nowhere", 60)):
+        longer = varint(len(content) + more)
+        assert len(longer) == len(size)
+        data = good.replace(b"\5" + size + content, b"\5" + longer + content)
+        yield f"a Mesh block that reaches into {what}", CORRUPT, data

@@ -166,13 +166,25 @@ bool ContainerReader::readIndex(std::uint64_t firstTile, const DecodeLimits& lim
       offset = saturatingAdd(offset, saturatingChunkSize(payload));
     }
   }
-  if (offset > indexOffset) {
-    throw Error(ErrorCode::Corrupt, "the tiles of the index do not fit in front of it");
-  }
-  findMeshBlocks(offset);
-  readTrailingBlocks(offset, indexOffset);
+  readUpToIndex(offset, indexOffset);
   overheadBytes_ += size - indexOffset;
   return true;
+}
+
+void ContainerReader::readUpToIndex(std::uint64_t offset, std::uint64_t indexOffset) {
+  const auto fail = [](const std::string& what) {
+    throw Error(ErrorCode::Corrupt, what + " does not fit in front of the index of the file");
+  };
+  if (offset > indexOffset) fail("the last tile");
+  try {
+    findMeshBlocks(offset);
+    if (offset > indexOffset) fail("the last block of cells");
+    readTrailingBlocks(offset, indexOffset);
+  } catch (const Error& error) {
+    // A file with an index is whole: what it lacks was never there.
+    if (error.code() == ErrorCode::Truncated) fail("a block");
+    throw;
+  }
 }
 
 void ContainerReader::recoverTiles(std::uint64_t firstTile, const DecodeLimits& limits) {

@@ -53,6 +53,8 @@ class ContainerReader {
   /// The index that the End block at the end of the file leads to; false if there is none.
   bool readIndex(std::uint64_t firstTile, const DecodeLimits& limits);
   void recoverTiles(std::uint64_t firstTile, const DecodeLimits& limits);
+  /// What stands behind the tiles, which end at `offset`, and in front of the index.
+  void readUpToIndex(std::uint64_t offset, std::uint64_t indexOffset);
   /// Finds the Mesh blocks that begin at `offset` and moves it behind them.
   void findMeshBlocks(std::uint64_t& offset);
   void readTrailingBlocks(std::uint64_t offset, std::uint64_t end) const;
