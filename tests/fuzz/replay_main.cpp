@@ -30,8 +30,9 @@ constexpr const char* kUsage =
     "                                                 and so many mutations of them\n"
     "       bspc_fuzz_replay TARGET FILE...           runs these inputs\n";
 
+/// A ByteMutator has no room for a state of its own.
 Random& byteRandom() {
-  static Random random(4);
+  static Random random(0);
   return random;
 }
 
@@ -125,7 +126,7 @@ void runKept(const Target& target, ByteView input) {
   target.run(input);
 }
 
-void run(const Target& target, std::uint64_t mutations) {
+void run(const Target& target, std::uint64_t mutations, std::uint64_t number) {
   constexpr std::size_t kMaxSize = 4096;
   std::vector<Bytes> inputs = seedsOf(target);
   const std::size_t seeds = inputs.size();
@@ -133,7 +134,8 @@ void run(const Target& target, std::uint64_t mutations) {
   for (const auto& file : filesOf(kept)) inputs.push_back(readFile(file));
   if (inputs.empty()) throw std::runtime_error("there are no seeds");
   for (const Bytes& input : inputs) runKept(target, input);
-  Random random(3);
+  Random random(2 * number);
+  byteRandom() = Random(2 * number + 1);
   std::vector<Bytes> small;
   for (const Bytes& input : inputs) {
     if (input.size() <= kMaxSize) small.push_back(input);
@@ -171,8 +173,8 @@ int perform(const std::vector<std::string>& arguments) {
   }
   if (arguments[1] == "--seeds" && arguments.size() == 3) {
     writeSeeds(*target, arguments[2]);
-  } else if (arguments[1] == "--run" && arguments.size() == 3) {
-    run(*target, std::stoull(arguments[2]));
+  } else if (arguments[1] == "--run" && arguments.size() > 2) {
+    run(*target, std::stoull(arguments[2]), arguments.size() > 3 ? std::stoull(arguments[3]) : 0);
   } else {
     for (std::size_t i = 1; i < arguments.size(); ++i) target->run(readFile(arguments[i]));
   }
