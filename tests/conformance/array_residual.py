@@ -119,6 +119,7 @@ class Residual:
             size = size << 1 | coder.adaptive(self.bits["size", slot, length, size])
         if length - 1 - told:
             size = size << (length - 1 - told) | coder.wide(length - 1 - told)
+        require(size <= 1 << (bits - 1), "a residual is too great")
         negative = coder.adaptive(self.bits["sign", slot, signs, min(length, 3)])
         return expected, -size if negative else size
 

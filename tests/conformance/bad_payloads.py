@@ -9,6 +9,7 @@ from bad_container import CORRUPT, UNSUPPORTED, BadFile, Cases
 from container import File, MeshRecord
 from draft import Draft, MeshDraft, varint, zstd_frame
 from elementary import FormatError
+from range_coder import AdaptiveBits
 from scripted import Script, adaptive_number, number
 from surface import Surface
 
@@ -157,6 +158,15 @@ def surface_rules(good: bytes, layers: bytes) -> Iterator[BadFile]:
     yield from cases.files
 
 
+def _residual_of_255() -> bytes:
+    """Its length, three bits behind the leading one, and four more."""
+    script, models = Script([1, 0, 0, 0, 1, 1, 1, 15]), AdaptiveBits()
+    for place in range(7):
+        script.adaptive(models[place])
+    script.wide(4)
+    return script.stream()
+
+
 def array_rules(good: bytes) -> Iterator[BadFile]:
     """Section 14, of Testing/Data/frozen_1.0/kd_arrays.bspc."""
     cases = PayloadCases(good)
@@ -189,6 +199,7 @@ def array_rules(good: bytes) -> Iterator[BadFile]:
     cases.array("residual: unit of one component", FLOAT32, b"\3\x40" + bytes(8))
     cases.array("residual: sphere outside of a sphere", UINT8, b"\3\x60" + bytes(8))
     cases.array("residual: a residual longer than its word", UINT8, b"\3\0" + bytes(3000))
+    cases.array("residual: a residual of more than half of its word", UINT8, b"\3\0" + _residual_of_255())
     cases.array("residual: a stream that goes on", UINT8, b"\3\0" + b"\xff" * 3000)
     cases.array("mixing: a stream that goes on", UINT8, b"\4" + bytes(3000))
     cases.array("mixing: values beyond the type", 4, b"\4\1" + varint(65535) + b"\0" + bytes(3000))

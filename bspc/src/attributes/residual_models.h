@@ -54,6 +54,12 @@ class ResidualModels {
     const unsigned length = codeLength(coder, entropy::bitLength(residual.size), context);
     if (length == 0) return {};
     residual.size = codeMantissa(coder, residual.size, length, context.slot);
+    // Contexts of later residuals follow from this one, and have room for what can be.
+    if (residual.size > std::uint64_t{1} << (bits_ - 1)) {
+      throw Error(ErrorCode::Corrupt,
+                  "a residual of an array is greater than half the range of its "
+                  "numbers: the file is damaged");
+    }
     const std::size_t sign =
         (std::size_t{context.slot} * kSignContexts + context.signs) * kSignLengths +
         std::min(length, kSignLengths) - 1;
