@@ -240,7 +240,7 @@ Target decodeTarget() {
   target.run = runDecode;
   target.mutate = mutateFile;
   target.seeds = fileSeeds;
-  target.seedFolders = {"golden", "conformance"};
+  target.seedFolders = {"conformance", "frozen_1.0", "golden"};
   return target;
 }
 
@@ -250,7 +250,7 @@ Target queryTarget() {
   target.run = runQuery;
   target.mutate = mutateQuery;
   target.seeds = querySeeds;
-  target.seedFolders = {"golden", "conformance"};
+  target.seedFolders = {"conformance", "frozen_1.0", "golden"};
   target.suffix = kQueryBytes;
   return target;
 }

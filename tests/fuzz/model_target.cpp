@@ -90,7 +90,11 @@ void writeModel(const Model& model, Format format) {
     std::istringstream in(out.str());
     const Model again = formats::readModel(in, format, {}, true);
     if (again.size() != model.size()) fail("a written model has other points");
-    if (again.mesh.faces.size() != model.mesh.faces.size()) fail("a written model has other faces");
+    // The formats of point sets leave cells out, which the command says.
+    const bool holdsFaces = format == Format::Ply || format == Format::Obj || format == Format::Off;
+    if (holdsFaces && again.mesh.faces.size() != model.mesh.faces.size()) {
+      fail("a written model has other faces");
+    }
   } catch (const FormatError& error) {
     fail("a written model that is refused: " + std::string(error.what()));
   }

@@ -10,6 +10,7 @@
 #include "bspc/decoder.h"
 #include "bspc/error.h"
 #include "bspc/part_encoder.h"
+#include "bspc/stream_encoder.h"
 #include "round_trip_input.h"
 #include "target.h"
 
@@ -285,6 +286,65 @@ void goAround(const RoundTripInput& input) {
   checkLevels(decoder);
 }
 
+/// Gives the points of an input in pieces.
+class PieceReader final : public PointReader {
+ public:
+  explicit PieceReader(const RoundTripInput& input) : input_(input) {
+    for (const ArrayValues& array : input.arrays) descriptions_.push_back(array);
+  }
+  ScalarType type() const override { return input_.type; }
+  const std::vector<ArrayDescription>& arrays() const override { return descriptions_; }
+  std::size_t read(std::uint8_t* xyz, Span<ArrayValues> values, std::size_t count) override {
+    constexpr std::size_t kPiece = 17;
+    const auto left = static_cast<std::size_t>(input_.size()) - at_;
+    const std::size_t got = std::min({count, kPiece, left});
+    const std::size_t size = 3 * scalarSize(input_.type);
+    if (got > 0) std::memcpy(xyz, input_.positions.data() + at_ * size, got * size);
+    for (std::size_t a = 0; a < values.size(); ++a) {
+      const ArrayValues& from = input_.arrays[a];
+      for (std::size_t i = at_; i < at_ + got; ++i) {
+        if (from.type == ScalarType::String) {
+          const auto first =
+              from.strings.begin() + static_cast<std::ptrdiff_t>(i * from.components);
+          values[a].strings.insert(values[a].strings.end(), first, first + from.components);
+        } else {
+          const std::string tuple = tupleOf(from, i);
+          values[a].values.insert(values[a].values.end(), tuple.begin(), tuple.end());
+        }
+      }
+    }
+    at_ += got;
+    return got;
+  }
+
+ private:
+  const RoundTripInput& input_;
+  std::vector<ArrayDescription> descriptions_;
+  std::size_t at_ = 0;
+};
+
+/// A stream that fits into memory is coded as the whole is at once.
+void goAroundAsStream(const RoundTripInput& input) {
+  StreamOptions options;
+  options.encoding = input.options;
+  options.encoding.wantOrder = false;
+  MemorySink whole;
+  MemorySink stream;
+  try {
+    encode(input.part(0, input.size()), whole, options.encoding);
+  } catch (const Error& error) {
+    checkRefusal(error);
+    return;
+  }
+  try {
+    PieceReader reader(input);
+    encodeStream(reader, stream, options);
+  } catch (const Error& error) {
+    fail("a stream that is refused: " + std::string(error.what()));
+  }
+  if (stream.bytes() != whole.bytes()) fail("a stream that is coded otherwise");
+}
+
 /// Several writers of one file.
 void goAroundInParts(const RoundTripInput& input) {
   EncodeOptions options = input.options;
@@ -335,11 +395,12 @@ void goAroundInParts(const RoundTripInput& input) {
 
 void runRoundTrip(ByteView bytes) {
   Choices choices(bytes);
-  const bool inParts = choices.below(16) == 0;
+  const std::uint64_t way = choices.below(16);
   const RoundTripInput input(choices);
   try {
     goAround(input);
-    if (inParts) goAroundInParts(input);
+    if (way == 0) goAroundInParts(input);
+    if (way == 1) goAroundAsStream(input);
   } catch (const Error& error) {
     fail("a decoder that refuses what was encoded: " + std::string(error.what()));
   }

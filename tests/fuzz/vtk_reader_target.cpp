@@ -50,7 +50,7 @@ Target vtkReaderTarget() {
   target.run = runVtkReader;
   target.mutate = mutateFile;
   target.seeds = fileSeeds;
-  target.seedFolders = {"golden", "conformance"};
+  target.seedFolders = {"conformance", "frozen_1.0", "golden"};
   return target;
 }
 
