@@ -120,6 +120,7 @@ class Residual:
         if length - 1 - told:
             size = size << (length - 1 - told) | coder.wide(length - 1 - told)
         require(size <= 1 << (bits - 1), "a residual is too great")
+        require(size <= 1 << (bits - 1), "a residual is beyond half of its range")
         negative = coder.adaptive(self.bits["sign", slot, signs, min(length, 3)])
         return expected, -size if negative else size
 

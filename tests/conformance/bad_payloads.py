@@ -5,10 +5,11 @@ from __future__ import annotations
 import struct
 from typing import Callable, Iterator
 
+from arrays import ArrayPayload, Layer
 from bad_container import CORRUPT, UNSUPPORTED, BadFile, Cases
 from container import File, MeshRecord
 from draft import Draft, MeshDraft, varint, zstd_frame
-from elementary import FormatError
+from elementary import FormatError, Reader
 from range_coder import AdaptiveBits
 from scripted import Script, adaptive_number, number
 from surface import Surface
@@ -167,6 +168,16 @@ def _residual_of_255() -> bytes:
     return script.stream()
 
 
+def _large_residual() -> bytes:
+    """A payload of bytes that begins with the residual 255: its length, three bits, the rest."""
+    start, script = b"\3\0", Script([1, 0, 0, 0, 1, 1, 1, 15])
+    try:
+        ArrayPayload(Layer([(0, 0, 0)], 0, None), UINT8, 1).decode(Reader(start, tail=script), [])
+    except FormatError:
+        return start + script.stream()
+    raise AssertionError("nothing is wrong with this residual")
+
+
 def array_rules(good: bytes) -> Iterator[BadFile]:
     """Section 14, of Testing/Data/frozen_1.0/kd_arrays.bspc."""
     cases = PayloadCases(good)
@@ -200,6 +211,7 @@ def array_rules(good: bytes) -> Iterator[BadFile]:
     cases.array("residual: sphere outside of a sphere", UINT8, b"\3\x60" + bytes(8))
     cases.array("residual: a residual longer than its word", UINT8, b"\3\0" + bytes(3000))
     cases.array("residual: a residual of more than half of its word", UINT8, b"\3\0" + _residual_of_255())
+    cases.array("residual: a residual beyond half of its range", UINT8, _large_residual())
     cases.array("residual: a stream that goes on", UINT8, b"\3\0" + b"\xff" * 3000)
     cases.array("mixing: a stream that goes on", UINT8, b"\4" + bytes(3000))
     cases.array("mixing: values beyond the type", 4, b"\4\1" + varint(65535) + b"\0" + bytes(3000))

@@ -54,6 +54,10 @@ class ResidualModels {
     const unsigned length = codeLength(coder, entropy::bitLength(residual.size), context);
     if (length == 0) return {};
     residual.size = codeMantissa(coder, residual.size, length, context.slot);
+    // Contexts have room for what modulo 2^bits is needed, and no more.
+    if (residual.size > std::uint64_t{1} << (bits_ - 1)) {
+      throw Error(ErrorCode::Corrupt, "a residual of an array is beyond half of its range");
+    }
     // Contexts of later residuals follow from this one, and have room for what can be.
     if (residual.size > std::uint64_t{1} << (bits_ - 1)) {
       throw Error(ErrorCode::Corrupt,
