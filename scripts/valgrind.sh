@@ -30,7 +30,7 @@ cmake --build --preset dev -j "$(nproc)" --target bspc_tests bspc_fault_tests bs
 check() {
   echo "valgrind: $*"
   valgrind --quiet --error-exitcode=1 --leak-check=full --errors-for-leak-kinds=definite,possible \
-    "$@"
+    --suppressions=scripts/valgrind.supp "$@"
 }
 
 check build/dev/bin/bspc_tests --gtest_brief=1 \

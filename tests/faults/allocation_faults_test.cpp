@@ -21,7 +21,7 @@ using test::smallFiles;
 /// Runs the action with one allocation after the other failing: each of the first ones, then some.
 void expectSafe(const std::function<void()>& action) {
   action();  // what is made once only is there from now on
-  constexpr std::uint64_t kEach = 30;
+  constexpr std::uint64_t kEach = 15;
   bool reached = true;
   for (std::uint64_t number = 1; reached; number += 1 + number / kEach) {
     for (const bool allAfter : {false, true}) {

@@ -52,8 +52,8 @@ class MemoryOfMethod : public testing::TestWithParam<Method> {};
 TEST_P(MemoryOfMethod, StaysWithinTheLimit) {
   const bool slow = GetParam() == Method::Predictive || GetParam() == Method::Bsp;
   const std::vector<std::vector<GridPoint>> sets{
-      std::vector<GridPoint>(40000, GridPoint{1, 2, 3}),
-      test::randomPoints(3, slow ? 4000 : 20000, {1023, 1023, 1023})};
+      std::vector<GridPoint>(slow ? 20000 : 40000, GridPoint{1, 2, 3}),
+      test::randomPoints(3, slow ? 1500 : 20000, {1023, 1023, 1023})};
   for (const std::vector<GridPoint>& points : sets) {
     for (const unsigned layers : {1U, 4U}) {
       EncodeOptions encoding;
