@@ -10,7 +10,7 @@ from range_coder import RangeDecoder, stream_of
 FLAGS = (
     "quadric", "plane", "parallelograms", "projection", "separate kinds", "two scales",
     "axis values", "wide coordinates", "density", "nearest", "many contexts", "phases", "mirrors",
-    "range images", "two layers", "narrow quadric",
+    "range images", "two layers", "narrow quadric", "farther points", "chains",
 )  # fmt: skip
 _LOWEST = {"quadric", "parallelograms", "projection", "axis values", "phases", "mirrors", "range images"}
 _SEVENTH = _LOWEST | {"separate kinds", "nearest", "many contexts"}
@@ -19,8 +19,8 @@ EFFORTS = {
     5: (_LOWEST, 6, 8, 0),
     6: (_LOWEST, 10, 9, 1),
     7: (_SEVENTH, 13, 14, 1),
-    8: (set(FLAGS), 14, 16, 1),
-    9: (set(FLAGS), 16, 16, 2),
+    8: (set(FLAGS), 14, 36, 1),
+    9: (set(FLAGS), 16, 49, 2),
 }
 OWN = 15
 

@@ -119,8 +119,9 @@ class Candidates:
         self.scales = 2 if "two scales" in flags else 1
         self.listed: list[tuple[Vector, float, int]] = []  # place, weight, kind
         self.pairs: dict[int, set[int]] = {}
-        self.groups = [Group([1.0] * self.scales) for _ in range(3)]
-        self.answers = [[Answer()] * self.scales for _ in range(3)]
+        widths = (self.scales, self.scales, 1)
+        self.groups = [Group([1.0] * n) for n in widths]
+        self.answers = [[Answer()] * n for n in widths]
 
     def start_cell(self, near: NearPoints, side: float, spacing: float) -> None:
         self.middle = real(0.5 * side)
@@ -147,9 +148,21 @@ class Candidates:
         distances = squares(shifted(near.x, -at[0]), shifted(near.y, -at[1]), shifted(near.z, -at[2]))
         if any(d < self.minimum for d in distances):
             return
-        drop = 10.0 if kind == EXTRAPOLATED else 3.0
+        drop = 20.0 if kind == EXTRAPOLATED else real(1.2)
         weight = real(1.0 / real(1.0 + real(drop * real(square * self.inverse_square))))
         self.listed.append((at, weight, kind))
+
+    def _extrapolate(self, near: NearPoints, a: Vector, b: Vector, square: float) -> None:
+        at = _beyond(a, b)
+        if "chains" in self.flags:
+            before = _beyond(b, a)
+            distances = squares(*(shifted(c, -x) for c, x in zip((near.x, near.y, near.z), before)))
+            nearest = min(range(len(distances)), key=distances.__getitem__)
+            if distances[nearest] < real(real(0.15) * square):
+                bend = (real(0.5 * real(c - x)) for c, x in zip(near.at(nearest), before))
+                at = tuple(real(x + by) for x, by in zip(at, bend))
+                square = real(0.5 * square)
+        self._propose(near, EXTRAPOLATED, at, square)
 
     def _propose_around(self, near: NearPoints, t: int) -> None:
         here = near.at(t)
@@ -159,15 +172,12 @@ class Candidates:
         for j in pairs:
             self.pairs[j].add(t)
 
-        def beyond(a: Vector, b: Vector) -> Vector:
-            return tuple(real(real(2 * a[k]) - b[k]) for k in range(3))
-
         for group in _eights(pairs):
             for swapped in (False, True):
                 for j in group:
-                    at = beyond(places[j], here) if swapped else beyond(here, places[j])
-                    if self._in_cell(at):
-                        self._propose(near, EXTRAPOLATED, at, square_between(here, places[j]))
+                    a, b = (places[j], here) if swapped else (here, places[j])
+                    if self._in_cell(_beyond(a, b)):
+                        self._extrapolate(near, a, b, square_between(here, places[j]))
         if "parallelograms" not in self.flags:
             return
         for k in pairs:
@@ -194,7 +204,7 @@ class Candidates:
                 real(1.0 / real(real(real(0.12) * width) + real(0.38))),
                 real(1.0 / real(width + 0.5)),
             ]
-        self.groups = [Group(scales) for _ in range(3)]
+        self.groups = [Group(scales), Group(scales), Group(scales[-1:])]
         margin = real(real(0.3) * spacing)
         half = [real(real(0.5 * q.size[k]) + margin) for k in range(3)]
         separate = "separate kinds" in self.flags
@@ -242,6 +252,10 @@ class Candidates:
                 found = squares(*(shifted(group.place[k], -at[k]) for k in range(3)))
                 return min([most, *found])
         return most
+
+
+def _beyond(a: Vector, b: Vector) -> Vector:
+    return tuple(real(real(2 * a[k]) - b[k]) for k in range(3))
 
 
 def _eights(numbers: list[int]) -> list[list[int]]:

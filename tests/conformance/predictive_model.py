@@ -87,9 +87,7 @@ class LayeredMixer:
         finals = [sets.of(key, len(logits)) for sets, key in zip(self.finals, final_keys)]
         mixed, mean = [], 0.0
         for weights in finals:
-            u = 0.0
-            for f, logit in zip(weights, logits):
-                u = real(u + real(f * logit))
+            u = total(times(weights, row(logits)))
             mixed.append(u)
             mean = real(mean + u)
         mean = real(mean * real(1 / len(finals)))

@@ -126,10 +126,12 @@ class Scene:
         reach = real(real(1.1) / real(0.7))
         self.surface.fit(self.near, (middle,) * 3, self.spacing, reach, "quadric" in self.flags)
 
-    def start_cell(self, side: float) -> None:
+    def start_cell(self, side: float, touching: int) -> None:
+        """So many entries of the neighbourhood touch the cell; others are near points at most."""
         self.in_cell = True
         middle = real(0.5 * side)
         self.points.gather(self.near, (middle,) * 3, self.features.near_points)
+        self.near.shorten(touching)
         distances, seen = self.cell_spacing, 1
         for i in self.points.known[:6]:
             if self.known[i].nearest < 1e9:

@@ -42,6 +42,10 @@ class Neighbourhood:
             column.append(value)
         self.known.append(known)
 
+    def shorten(self, entries: int) -> None:
+        for column in (self.x, self.y, self.z, self.weight, self.size, self.known):
+            del column[entries:]
+
     def holds(self, at: Vector) -> bool:
         return any(at == p for p in zip(self.x, self.y, self.z))
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import product
+
 from predictive_model import DecisionModel
 from predictive_scene import Scene
 from predictive_surface import Question
@@ -170,7 +172,10 @@ class Tree:
         self.origin = node.lower()
         self.scene.in_cell = True
         self._gather_touching(node)
-        self.scene.start_cell(real(1 << node.open))
+        touching = len(self.scene.near.known)
+        if "farther points" in self.scene.flags:
+            self._gather_farther(node)
+        self.scene.start_cell(real(1 << node.open), touching)
         self.changed = True
         sides = (node.open,) * 3
         if node.open == 0:
@@ -181,7 +186,10 @@ class Tree:
     def _add_finished(self, node: Node) -> None:
         if node.children or node.past_known is None:
             self._add_cell(node)
-            return
+        else:
+            self._add_known(node)
+
+    def _add_known(self, node: Node) -> None:
         for i in range(node.first_known, node.past_known):
             self.scene.near.add(self._in_cell(self.scene.known[i].position), 1.0, 1.0, i)
 
@@ -217,6 +225,19 @@ class Tree:
                 break
         spacing = real(real(1 << node.open) / root(real(self.count / self.area)))
         self.scene.cell_spacing = spacing if spacing >= 1 else 1.0
+
+    def _gather_farther(self, node: Node) -> None:
+        known = sum(i is not None for i in self.scene.near.known)
+        if known >= self.scene.features.near_points + 8:
+            return
+        for step in product((-1, 0, 1), repeat=3):
+            cell = tuple((c >> 1) + s for c, s in zip(node.cell, step))
+            found = self.find(node.open + 1, cell) if min(cell) >= 0 else None
+            for number in found.children if found else ():
+                child = self.nodes[number]
+                away = max(abs(a - b) for a, b in zip(child.cell, node.cell))
+                if away == 2 and child.past_known is not None:
+                    self._add_known(child)
 
     def _count(self, node: Node, area: int) -> None:
         self.count = real(self.count + real(node.count))

@@ -53,11 +53,17 @@ struct IntLanes {
   }
   BSPC_LANES_OPERATOR(&)
   BSPC_LANES_OPERATOR(|)
+  BSPC_LANES_OPERATOR(+)
   BSPC_LANES_OPERATOR(-)
 #undef BSPC_LANES_OPERATOR
   BSPC_LANES_INLINE friend IntLanes operator~(const IntLanes& a) {
     IntLanes r;
     for (unsigned i = 0; i < lane_detail::kRegisters; ++i) r.part[i] = ~a.part[i];
+    return r;
+  }
+  BSPC_LANES_INLINE friend IntLanes operator<<(const IntLanes& a, int shift) {
+    IntLanes r;
+    for (unsigned i = 0; i < lane_detail::kRegisters; ++i) r.part[i] = a.part[i] << shift;
     return r;
   }
   BSPC_LANES_INLINE friend IntLanes operator>>(const IntLanes& a, int shift) {
@@ -142,6 +148,15 @@ BSPC_LANES_INLINE Lanes converted(const IntLanes& numbers) {
   return v;
 }
 
+/// Numbers without their fractions; each must fit.
+BSPC_LANES_INLINE IntLanes truncated(const Lanes& v) {
+  IntLanes numbers;
+  for (unsigned i = 0; i < lane_detail::kRegisters; ++i) {
+    numbers.part[i] = __builtin_convertvector(v.part[i], lane_detail::IntRegister);
+  }
+  return numbers;
+}
+
 BSPC_LANES_INLINE Lanes magnitude(const Lanes& v) {
   return lanesOf(bitsOf(v) & IntLanes(0x7FFFFFFF));
 }
@@ -168,10 +183,13 @@ BSPC_LANES_INLINE float sum(const Lanes& v) {
 }
 
 BSPC_LANES_INLINE float least(const Lanes& v) {
-  const std::array<float, kLanes> values = valuesOf(v);
-  float best = values[0];
-  for (const float x : values) best = x < best ? x : best;
-  return best;
+  using Half = float __attribute__((vector_size(16)));
+  Half half[2];
+  std::memcpy(half, v.part, sizeof half);
+  const Half four = half[0] < half[1] ? half[0] : half[1];
+  const float even = four[0] < four[2] ? four[0] : four[2];
+  const float odd = four[1] < four[3] ? four[1] : four[3];
+  return even < odd ? even : odd;
 }
 
 /// Bit i is set where lane i of the mask is.

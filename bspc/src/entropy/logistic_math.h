@@ -34,6 +34,10 @@ constexpr float clamped(float x, float low, float high) {
   return x > low ? (x < high ? x : high) : low;
 }
 
+BSPC_LANES_INLINE Lanes clamped(const Lanes& x, float low, float high) {
+  return select(x > low, smaller(x, high), low);
+}
+
 /// Class 0 … classes − 1 of a number: the whole part of x · scale + offset, kept within.
 inline unsigned classOf(float x, float scale, float offset, unsigned classes) {
   return static_cast<unsigned>(clamped(x * scale + offset, 0, static_cast<float>(classes - 1)));
@@ -70,11 +74,24 @@ inline float exp2(float x) {
   return p * floatOf(static_cast<std::uint32_t>(whole + 127) << 23);
 }
 
+/// The same of each lane.
+BSPC_LANES_INLINE Lanes exp2(const Lanes& number) {
+  const Lanes x = clamped(number, -100, 100);
+  const IntLanes whole = truncated(select(x < 0.0F, x - 1.0F, x));
+  const Lanes f = x - converted(whole);
+  const Lanes p =
+      1.0F +
+      f * (0.693147F + f * (0.240227F + f * (0.0555041F + f * (0.0096181F + f * 0.0013333F))));
+  return p * lanesOf((whole + 127) << 23);
+}
+
 /// Twice the binary logarithm of a positive number, rounded down (linear between powers of two).
 inline int halfOctave(float x) { return static_cast<int>(bitsOf(x) >> 22) - 254; }
 
 /// Probability whose logit is `x`: 1 / (1 + e^−x).
 inline float squash(float x) { return 1 / (1 + exp2(-x * 1.44269504F)); }
+
+BSPC_LANES_INLINE Lanes squash(const Lanes& x) { return 1.0F / (1.0F + exp2(x * -1.44269504F)); }
 
 /// A bell's distribution function from −1 to 1 with heavy tails: ± (1 − 1 / (1 + |t| + t²)).
 inline float bell(float t) {

@@ -74,8 +74,11 @@ class WeightSets {
     return rate.start * rate.halfLife / (static_cast<float>(seen_[set]) + rate.halfLife) +
            rate.floor;
   }
-  void count(unsigned set) {
-    if (seen_[set] < kMaxSeen) ++seen_[set];
+  /// Counts one more decision of a set; returns how many there were before.
+  float count(unsigned set) {
+    const std::uint32_t before = seen_[set];
+    if (before < kMaxSeen) seen_[set] = before + 1;
+    return static_cast<float>(before);
   }
 
  private:
@@ -173,38 +176,38 @@ class LayeredMixer {
             const FinalSelection& finalSets) {
     const unsigned count = evidence.pad();
     std::array<float*, kSets> weights{};
-    std::array<float, kSets> logit{};
-    std::array<float*, Finals> final{};
-    for (unsigned f = 0; f < Finals; ++f) final[f] = final_[f].weights(finalSets[f]);
-    std::array<float, Finals> mixed{};
+    alignas(32) std::array<float, kLanes> dots{};
     for (unsigned i = 0; i < kSets; ++i) {
       weights[i] = sets_[i].weights(selected[selectorOf(i)]);
       Lanes dot = Lanes(0);
       for (unsigned j = 0; j < count; j += kLanes) {
         dot += load(weights[i] + j) * load(evidence.inputs() + j);
       }
-      logit[i] = clamped(sum(dot), -11, 11);
-      for (unsigned f = 0; f < Finals; ++f) mixed[f] += final[f][i] * logit[i];
+      dots[i] = sum(dot);
     }
-    float mean = 0;
-    for (const float logitOfSet : mixed) mean += logitOfSet;
-    const float probability = squash(clamped(mean * (1.0F / Finals), -11, 11));
+    const Lanes logits = clamped(load(dots.data()), -11, 11);
+    std::array<float*, Finals> final{};
+    alignas(32) std::array<float, kLanes> mixed{};  // the mean after the mixtures
+    for (unsigned f = 0; f < Finals; ++f) {
+      final[f] = final_[f].weights(finalSets[f]);
+      mixed[f] = sum(load(final[f]) * logits);
+      mixed[Finals] += mixed[f];
+    }
+    mixed[Finals] *= 1.0F / Finals;
+    const std::array<float, kLanes> chance = valuesOf(squash(clamped(load(mixed.data()), -11, 11)));
+    const float probability = chance[Finals];
     bit = coder.fixedBit(static_cast<std::uint32_t>(clamped(probability * 65536, 4, 65532)), bit);
     const float target = bit ? 1.0F : 0.0F;
     for (unsigned f = 0; f < Finals; ++f) {
-      const float error = target - squash(clamped(mixed[f], -11, 11));
-      const float step = final_[f].rate(finalSets[f], finalRate_) * error;
+      const float step = final_[f].rate(finalSets[f], finalRate_) * (target - chance[f]);
       final_[f].count(finalSets[f]);
-      for (unsigned i = 0; i < kSets; ++i) final[f][i] += step * logit[i];
+      store(final[f], load(final[f]) + step * logits);
     }
+    const std::array<float, kLanes> steps = valuesOf(ratesOf(selected) * (target - squash(logits)));
     for (unsigned i = 0; i < kSets; ++i) {
-      const unsigned set = selected[selectorOf(i)];
-      const float step = sets_[i].rate(set, rate_) * kPace[i < Selectors ? 0 : i - Selectors + 1] *
-                         (target - squash(logit[i]));
-      sets_[i].count(set);
-      const Lanes scale = Lanes(step);
+      const Lanes step = Lanes(steps[i]);
       for (unsigned j = 0; j < count; j += kLanes) {
-        store(weights[i] + j, load(weights[i] + j) + scale * load(evidence.inputs() + j));
+        store(weights[i] + j, load(weights[i] + j) + step * load(evidence.inputs() + j));
       }
     }
     evidence.learn(bit, counterAge_);
@@ -213,10 +216,23 @@ class LayeredMixer {
 
  private:
   static constexpr unsigned kSets = Selectors + 2;
-  static constexpr std::array<float, 3> kPace{1, 0.2F, 3};
+  static_assert(kSets <= kLanes && Finals < kLanes, "there is a lane for each set");
 
   static constexpr unsigned selectorOf(unsigned set) {
     return set < Selectors ? set : set == Selectors ? 0 : Selectors - 1;
+  }
+
+  /// How fast the selected sets learn from this decision, which is counted.
+  Lanes ratesOf(const Selection& selected) {
+    alignas(32) std::array<float, kLanes> seen{};
+    alignas(32) std::array<float, kLanes> pace{};
+    for (unsigned i = 0; i < kSets; ++i) {
+      seen[i] = sets_[i].count(selected[selectorOf(i)]);
+      pace[i] = i == Selectors ? 0.2F : i > Selectors ? 3.0F : 1.0F;
+    }
+    const Lanes rates =
+        Lanes(rate_.start * rate_.halfLife) / (load(seen.data()) + rate_.halfLife) + rate_.floor;
+    return rates * load(pace.data());
   }
 
   MixingRate rate_;

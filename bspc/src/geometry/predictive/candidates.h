@@ -15,7 +15,8 @@ namespace bspc::geometry::predictive {
 inline namespace BSPC_LANE_SET {
 
 /// Predictor: points of meshes and scans continue the pattern of those around them. Pairs and
-/// triples of near points say where: 2a − b, and a + b − c. Those that would come closer than 0.3
+/// triples of near points say where: 2a − b, and a + b − c. If a row of three
+/// bends, 2a − b bends on with it, half as much. Those that would come closer than 0.3
 /// spacings to a known point are left out. The longer the pairs, the less a candidate counts.
 class Candidates {
  public:
@@ -47,10 +48,10 @@ class Candidates {
   /// Square distance of the nearest candidate of the best kind, at most `most`.
   float nearestSquare(float px, float py, float pz, float most) const;
 
-  const Answer& widest(unsigned kind) const { return answer[kind][scales_ - 1]; }
+  const Answer& widest(unsigned kind) const { return answer[kind][scalesOf(kind) - 1]; }
   void addEvidence(entropy::Evidence& evidence) const {
-    for (const auto& kind : answer) {
-      for (unsigned s = 0; s < scales_; ++s) evidence.add(kind[s].evidence);
+    for (unsigned kind = 0; kind < kKinds; ++kind) {
+      for (unsigned s = 0; s < scalesOf(kind); ++s) evidence.add(answer[kind][s].evidence);
     }
   }
 
@@ -81,8 +82,11 @@ class Candidates {
     }
   };
 
+  /// Those that were moved onto the surface count at the greater width alone.
+  unsigned scalesOf(unsigned kind) const { return kind == kProjected ? 1 : scales_; }
   /// `square`: of the pair's length, or of the parallelogram's sides together.
   void propose(const NearPoints& near, Kind kind, float x, float y, float z, float square);
+  void extrapolate(const NearPoints& near, const Vector3& a, const Vector3& b, float square);
   void proposeAround(const NearPoints& near, unsigned t);
   BSPC_LANES_INLINE std::uint32_t inCell(const Lanes& x, const Lanes& y, const Lanes& z) const {
     return entropy::maskBits((entropy::magnitude(x - middle_) <= reach_) &
@@ -91,7 +95,7 @@ class Candidates {
   }
   void dropNear(float px, float py, float pz);
   void project(const Surface& surface, float spacing, Group& from);
-  void spread(const Question& q, Group& group);
+  void spread(const Question& q, unsigned kind);
 
   Features features_;
   unsigned scales_;

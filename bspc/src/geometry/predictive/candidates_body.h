@@ -75,10 +75,29 @@ inline void Candidates::propose(const NearPoints& near, Kind kind, float x, floa
   x_[listed_] = x;
   y_[listed_] = y;
   z_[listed_] = z;
-  const float drop = kind == kExtrapolated ? 10.0F : 3.0F;  // per square spacing
+  const float drop = kind == kExtrapolated ? 20.0F : 1.2F;  // per square spacing
   weight_[listed_] = 1 / (1 + drop * (square * inverseSquare_));
   kind_[listed_] = static_cast<std::uint8_t>(kind);
   ++listed_;
+}
+
+/// 2a − b, for a pair whose square length is `square`.
+inline void Candidates::extrapolate(const NearPoints& near, const Vector3& a, const Vector3& b,
+                                    float square) {
+  Vector3 candidate{2 * a[0] - b[0], 2 * a[1] - b[1], 2 * a[2] - b[2]};
+  if (features_.has(Features::kChains)) {
+    constexpr float kClose = 0.15F;  // to where the row would have begun, of the pair's square
+    constexpr float kBend = 0.5F;
+    const Vector3 before{2 * b[0] - a[0], 2 * b[1] - a[1], 2 * b[2] - a[2]};
+    const NearPoints::Nearest c = near.nearestTo(before[0], before[1], before[2]);
+    if (c.square < kClose * square) {
+      candidate[0] += kBend * (near.x[c.index] - before[0]);
+      candidate[1] += kBend * (near.y[c.index] - before[1]);
+      candidate[2] += kBend * (near.z[c.index] - before[2]);
+      square = 0.5F * square;  // three that agree are worth more
+    }
+  }
+  propose(near, kExtrapolated, candidate[0], candidate[1], candidate[2], square);
 }
 
 /// What the near point t makes with those before it.
@@ -107,13 +126,11 @@ inline void Candidates::proposeAround(const NearPoints& near, unsigned t) {
     const Lanes pz = entropy::load(near.z + i);
     forEachBit(here & inCell(2 * x - px, 2 * y - py, 2 * z - pz), [&](unsigned lane) {
       const unsigned j = i + lane;
-      propose(near, kExtrapolated, 2 * x - near.x[j], 2 * y - near.y[j], 2 * z - near.z[j],
-              squareBetween(near, t, j));
+      extrapolate(near, {x, y, z}, {near.x[j], near.y[j], near.z[j]}, squareBetween(near, t, j));
     });
     forEachBit(here & inCell(2 * px - x, 2 * py - y, 2 * pz - z), [&](unsigned lane) {
       const unsigned j = i + lane;
-      propose(near, kExtrapolated, 2 * near.x[j] - x, 2 * near.y[j] - y, 2 * near.z[j] - z,
-              squareBetween(near, t, j));
+      extrapolate(near, {near.x[j], near.y[j], near.z[j]}, {x, y, z}, squareBetween(near, t, j));
     });
   }
   if (!features_.has(Features::kParallelograms)) return;
@@ -152,15 +169,18 @@ inline void Candidates::proposeAround(const NearPoints& near, unsigned t) {
 
 inline void Candidates::startBox(const Question& q, float spacing, float error,
                                  const Surface& surface) {
+  const float width = 0.6F * error * spacing;
   for (Group& group : group_) {
     group.count = 0;
-    const float width = 0.6F * error * spacing;
     if (scales_ == 1) {
       group.kernel[0].inverseWidth = 1 / (0.25F * width + 0.4F);
     } else {
       group.kernel[0].inverseWidth = 1 / (0.12F * width + 0.38F);
       group.kernel[1].inverseWidth = 1 / (width + 0.5F);
     }
+  }
+  if (scales_ == 2) {
+    group_[kProjected].kernel[0].inverseWidth = group_[kProjected].kernel[1].inverseWidth;
   }
   const float margin = 0.3F * spacing;
   const float hx = 0.5F * q.size[0] + margin;
@@ -182,7 +202,7 @@ inline void Candidates::startBox(const Question& q, float spacing, float error,
     project(surface, spacing, group_[kExtrapolated]);
     if (separate) project(surface, spacing, group_[kParallelogram]);
   }
-  for (Group& group : group_) spread(q, group);
+  for (unsigned kind = 0; kind < kKinds; ++kind) spread(q, kind);
 }
 
 /// Candidates moved onto the quadric along its normal, if they are near it.
@@ -215,13 +235,14 @@ inline void Candidates::project(const Surface& surface, float spacing, Group& fr
   }
 }
 
-inline void Candidates::spread(const Question& q, Group& group) {
+inline void Candidates::spread(const Question& q, unsigned kind) {
+  Group& group = group_[kind];
   const auto padded = entropy::wholeLanes(group.count);
   for (unsigned i = group.count; i < padded; ++i) {
     group.place[0][i] = group.place[1][i] = group.place[2][i] = Neighbourhood::kNowhere;
     group.weight[i] = 0;
   }
-  for (unsigned s = 0; s < scales_; ++s) {
+  for (unsigned s = 0; s < scalesOf(kind); ++s) {
     Kernel& kernel = group.kernel[s];
     for (unsigned k = 0; k < 3; ++k) {
       const float low = q.lower[k];
@@ -242,9 +263,13 @@ inline void Candidates::ask(const Question& q) {
   const unsigned k = q.axis;
   const unsigned k1 = k == 0 ? 1 : 0;
   const unsigned k2 = k == 2 ? 1 : 2;
+  static_assert(kKinds * kScales <= entropy::kLanes, "there is a lane for each answer");
+  alignas(32) float uppers[entropy::kLanes] = {};
+  alignas(32) float lowers[entropy::kLanes] = {};
+  unsigned answers = 0;
   for (unsigned kind = 0; kind < kKinds; ++kind) {
     Group& group = group_[kind];
-    for (unsigned s = 0; s < scales_; ++s) {
+    for (unsigned s = 0; s < scalesOf(kind); ++s) {
       Kernel& kernel = group.kernel[s];
       Lanes lower = {};
       Lanes upper = {};
@@ -260,14 +285,22 @@ inline void Candidates::ask(const Question& q) {
       Answer& a = answer[kind][s];
       a.lower = entropy::sum(lower);
       a.upper = entropy::sum(upper);
-      a.evidence = entropy::naturalLog((a.upper + 3e-3F) / (a.lower + 3e-3F));
+      uppers[answers] = a.upper;
+      lowers[answers++] = a.lower;
     }
+  }
+  const auto evidence = entropy::valuesOf(
+      entropy::naturalLog((entropy::load(uppers) + 3e-3F) / (entropy::load(lowers) + 3e-3F)));
+  answers = 0;
+  for (unsigned kind = 0; kind < kKinds; ++kind) {
+    for (unsigned s = 0; s < scalesOf(kind); ++s) answer[kind][s].evidence = evidence[answers++];
   }
 }
 
 inline void Candidates::take(unsigned axis, bool upper) {
-  for (Group& group : group_) {
-    for (unsigned s = 0; s < scales_; ++s) {
+  for (unsigned kind = 0; kind < kKinds; ++kind) {
+    Group& group = group_[kind];
+    for (unsigned s = 0; s < scalesOf(kind); ++s) {
       Kernel& kernel = group.kernel[s];
       for (unsigned i = 0; i < group.count; i += entropy::kLanes) {
         const Lanes at = entropy::load(kernel.at + i);

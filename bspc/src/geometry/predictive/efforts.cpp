@@ -36,12 +36,12 @@ Features featuresOf(unsigned effort) {
       break;
     case 8:
       f.nearPoints = 14;
-      f.pairReach = 16;
+      f.pairReach = 36;
       f.refit = Features::Refit::PerPoint;
       break;
     default:
       f.nearPoints = 16;
-      f.pairReach = 16;
+      f.pairReach = 49;
       f.refit = Features::Refit::Always;
   }
   return f;

@@ -24,8 +24,10 @@ struct Features {
     kRangeImage = 1U << 13,      ///< raster of a depth camera
     kTwoLayers = 1U << 14,       ///< side and count decisions are mixed in two layers
     kNarrowQuadric = 1U << 15,   ///< the quadric once more, as if it erred less
+    kFartherPoints = 1U << 16,   ///< where few points are known around, those a cell farther off
+    kChains = 1U << 17,          ///< rows of three points bend where they go on
   };
-  static constexpr std::uint32_t kAllFlags = (1U << 16) - 1;
+  static constexpr std::uint32_t kAllFlags = (1U << 18) - 1;
 
   /// When the surface is fitted anew.
   enum class Refit : std::uint8_t { PerCell, PerPoint, Always };

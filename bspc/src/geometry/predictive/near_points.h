@@ -55,6 +55,28 @@ struct NearPoints {
     ++count;
   }
 
+  struct Nearest {
+    unsigned index = 0;
+    float square = 0;
+  };
+  /// The first of the points nearest to a place, and the square of its distance.
+  Nearest nearestTo(float px, float py, float pz) const {
+    alignas(32) float distance[kMost];
+    entropy::Lanes best = entropy::Lanes(Neighbourhood::kNowhere * Neighbourhood::kNowhere);
+    for (unsigned i = 0; i < entropy::wholeLanes(count); i += entropy::kLanes) {
+      const entropy::Lanes dx = entropy::load(x + i) - px;
+      const entropy::Lanes dy = entropy::load(y + i) - py;
+      const entropy::Lanes dz = entropy::load(z + i) - pz;
+      const entropy::Lanes square = dx * dx + dy * dy + dz * dz;
+      entropy::store(distance + i, square);
+      best = entropy::smaller(best, square);
+    }
+    Nearest nearest;
+    nearest.square = entropy::least(best);
+    while (nearest.index + 1 < count && distance[nearest.index] > nearest.square) ++nearest.index;
+    return nearest;
+  }
+
   /// Calls `visit` with the indices of the six known points nearest to a place.
   template <class Visit>
   unsigned visitSix(float px, float py, float pz, Visit visit) const {

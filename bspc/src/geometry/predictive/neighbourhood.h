@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "entropy/lanes.h"
@@ -16,6 +17,7 @@ struct Neighbourhood {
   static constexpr float kNowhere = 1e18F;
 
   unsigned count = 0;
+  unsigned touching = 0;  ///< entries in front of those that lie farther off
   alignas(32) float x[kRoom];
   alignas(32) float y[kRoom];
   alignas(32) float z[kRoom];
@@ -42,6 +44,18 @@ struct Neighbourhood {
       weight[i] = 0;
       size[i] = 1;
     }
+  }
+
+  /// From now on entries lie farther off, until forgetFarther().
+  void startFarther() { touching = count; }
+  void forgetFarther() {
+    count = touching;
+    pad();
+  }
+
+  unsigned knownPoints() const {
+    return static_cast<unsigned>(
+        std::count_if(known, known + count, [](std::uint32_t i) { return i != kCell; }));
   }
 
   bool holdsCell(float px, float py, float pz) const {

@@ -58,6 +58,7 @@ struct Predictors {
     inCell = true;
     const float middle = 0.5F * side;
     points.gather(near, middle, middle, middle, features.nearPoints);
+    near.forgetFarther();
     float sum = cellSpacing;
     float seen = 1;
     for (unsigned i = 0; i < points.count && i < 6; ++i) {

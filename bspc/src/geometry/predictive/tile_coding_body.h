@@ -263,7 +263,7 @@ inline std::vector<GridPoint> sampleOf(const TileInput& tile, std::size_t count)
 /// The features with larger cells, if a sample takes fewer bits with those: what scans of leaves
 /// and grass do, and meshes do not.
 inline Features withBestCells(const Features& features, const TileInput& tile) {
-  constexpr std::size_t kSample = 4096;
+  constexpr std::size_t kSample = 2048;
   Features larger = features;
   larger.cellPoints = Features::kLargeCellPoints;
   TileInput sample;

@@ -144,12 +144,27 @@ class TreeCoder {
     return static_cast<float>(node.lower(k) - origin_[k]) + 0.5F * static_cast<float>(node.side());
   }
 
+  /// Along the axis where that is most, in cells. Both are of one size.
+  static std::uint32_t distanceBetween(const Node& one, const Node& other) {
+    std::uint32_t most = 0;
+    for (unsigned k = 0; k < 3; ++k) {
+      const std::uint32_t a = one.cell[k];
+      const std::uint32_t b = other.cell[k];
+      most = std::max(most, a > b ? a - b : b - a);
+    }
+    return most;
+  }
+
   // Depth first.
+  /// Farther points are looked for unless so many more are around than make candidates.
+  static constexpr unsigned kSparePoints = 8;
   void walk(std::uint32_t index);
   void codeCell(std::uint32_t index);
   void gatherDepthFirst(const Node& node);
   void gatherChildren(const Node& parent, const Node& node, float& count, float& area);
+  void gatherFarther(const Node& node);
   void addFinished(const Node& node);
+  void addKnown(const Node& node);
   void refine(Box& box, unsigned axis, std::uint32_t first, std::uint32_t count, bool halved);
   void refineOne(Box box, unsigned axis, std::uint32_t first);
   void emit(const Box& box, std::uint32_t count);
@@ -294,6 +309,12 @@ void TreeCoder<Coder, Points>::addFinished(const Node& node) {
     addCell(node);
     return;
   }
+  addKnown(node);
+}
+
+/// The points of a finished cell, divided or not.
+template <class Coder, class Points>
+void TreeCoder<Coder, Points>::addKnown(const Node& node) {
   for (std::uint32_t i = node.firstKnown; i < node.pastKnown; ++i) {
     const GridPoint& place = known_[i].position;
     std::array<float, 3> at{};
@@ -344,7 +365,33 @@ void TreeCoder<Coder, Points>::gatherDepthFirst(const Node& node) {
   }
   const float spacing = static_cast<float>(node.side()) / std::sqrt(count / area);
   p_.cellSpacing = spacing >= 1 ? spacing : 1;
+  p_.near.startFarther();
+  if (features_.has(Features::kFartherPoints) &&
+      p_.near.knownPoints() < features_.nearPoints + kSparePoints) {
+    gatherFarther(node);
+  }
   p_.near.pad();
+}
+
+/// The finished cells of this one's size that are one cell away.
+template <class Coder, class Points>
+void TreeCoder<Coder, Points>::gatherFarther(const Node& node) {
+  for (unsigned i = 0; i < 27; ++i) {
+    const std::array<unsigned, 3> step{i / 9, i / 3 % 3, i % 3};
+    std::array<std::uint32_t, 3> cell{};
+    bool outside = false;
+    for (unsigned k = 0; k < 3; ++k) {
+      const std::uint32_t own = node.cell[k] >> 1;
+      outside |= own + std::uint64_t{step[k]} == 0;
+      cell[k] = own + step[k] - 1;
+    }
+    const std::uint32_t found = outside ? Node::kNone : nodes_.find(node.open + 1U, cell);
+    if (found == Node::kNone) continue;
+    for (unsigned c = 0; c < nodes_[found].children; ++c) {
+      const Node& child = nodes_[nodes_[found].firstChild + c];
+      if (child.finished() && distanceBetween(child, node) == 2) addKnown(child);
+    }
+  }
 }
 
 /// The children of a parent that touch `node`.
@@ -359,13 +406,7 @@ void TreeCoder<Coder, Points>::gatherChildren(const Node& parent, const Node& no
   }
   for (unsigned c = 0; c < parent.children; ++c) {
     const Node& child = nodes_[parent.firstChild + c];
-    std::uint32_t farthest = 0;
-    for (unsigned k = 0; k < 3; ++k) {
-      const std::uint32_t a = child.cell[k];
-      const std::uint32_t b = node.cell[k];
-      farthest = std::max(farthest, a > b ? a - b : b - a);
-    }
-    if (farthest != 1) continue;
+    if (distanceBetween(child, node) != 1) continue;
     count += static_cast<float>(child.count);
     area += 1;
     if (!child.divided()) addFinished(child);
