@@ -426,7 +426,7 @@ class MeshDecoder {
       }
       // While an array grows, the old one and one of twice its size stand side by side.
       bytes = saturatingAdd(
-          bytes, 3 * 4 * (std::uint64_t{cells->indices.capacity()} + cells->ends.capacity()));
+          bytes, 12 * (std::uint64_t{cells->indices.capacity()} + cells->ends.capacity()));
     }
     if (bytes <= maxBytes_) return;
     throw Error(ErrorCode::LimitExceeded,

@@ -263,7 +263,8 @@ inline void Candidates::ask(const Question& q) {
   const unsigned k = q.axis;
   const unsigned k1 = k == 0 ? 1 : 0;
   const unsigned k2 = k == 2 ? 1 : 2;
-  static_assert(kKinds * kScales <= entropy::kLanes, "there is a lane for each answer");
+  static_assert(std::size_t{kKinds} * kScales <= entropy::kLanes,
+                "there is a lane for each answer");
   alignas(32) float uppers[entropy::kLanes] = {};
   alignas(32) float lowers[entropy::kLanes] = {};
   unsigned answers = 0;
