@@ -14,7 +14,7 @@ fuzz_packages=(clang libclang-rt-dev llvm)
 coverage_packages=(gcovr)
 valgrind_packages=(valgrind)
 peer_packages=(libdraco-dev draco)
-plot_packages=(python3-matplotlib)
+plot_packages=(python3-matplotlib python3-pil)
 # dpkg-dev finds out what a package depends on; the last three render without a screen.
 vtk_packages=(libvtk9-dev python3-vtk9 python3-numpy dpkg-dev xvfb xauth libgl1-mesa-dri)
 openmesh_packages=(libopenmesh-dev)
@@ -45,7 +45,7 @@ installed. Needs root or sudo only if something is missing.
   --coverage              also gcovr, for scripts/coverage.sh
   --valgrind              also Valgrind, for scripts/valgrind.sh
   --peers                 also the coders that benchmarks/peers compares bspc with
-  --plots                 also Matplotlib, for the plots of benchmarks
+  --plots                 also Matplotlib and Pillow, for the plots of benchmarks
   --for-download PACKAGE  also make sure that apt-get knows PACKAGE, without installing it
 END
 }
