@@ -10,16 +10,14 @@ that are of open methods, for use when these have changed.
 
 from __future__ import annotations
 
-import argparse
 import glob
 import os
 import subprocess
 import sys
 import tempfile
-import time
-from collections import Counter
 
 import random_models
+import seed_runs
 from content import Content
 from elementary import FormatError
 
@@ -79,32 +77,24 @@ def rewrite(comparison: Comparison) -> None:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--seconds", type=float, default=600)
-    parser.add_argument("--first", type=int, default=0)
-    parser.add_argument("--count", type=int, default=sys.maxsize)
-    parser.add_argument("--keep", help="a copy of the last file")
+    parser = seed_runs.parser_of(__doc__)
     parser.add_argument("--rewrite", action="store_true")
     arguments = parser.parse_args()
-    outcomes: Counter = Counter()
-    end = time.monotonic() + arguments.seconds
     with tempfile.TemporaryDirectory() as folder:
         comparison = Comparison(os.environ["BSPC"], os.environ["CONTENT_OF"], folder)
+
+        def outcome_of(seed: int) -> tuple[str, str]:
+            outcome, what = comparison.outcome(seed)
+            return outcome, f"{what}\n  {' '.join(random_models.model(seed)[1])}"
+
         if arguments.rewrite:
             rewrite(comparison)
             comparison.close()
             return 0
-        seed = arguments.first
-        while seed < arguments.first + arguments.count and time.monotonic() < end:
-            outcome, what = comparison.outcome(seed)
-            outcomes[outcome] += 1
-            if outcome == "different":
-                print(f"seed {seed}: {what}\n  {' '.join(random_models.model(seed)[1])}", flush=True)
-            seed += 1
+        outcomes = seed_runs.run(arguments, outcome_of)
         if arguments.keep:
             os.replace(comparison.coded, arguments.keep)
         comparison.close()
-    print(f"seeds {arguments.first} to {seed - 1}: " + ", ".join(f"{n} {o}" for o, n in outcomes.items()))
     # Nothing compared is no agreement.
     return 1 if outcomes["different"] or outcomes["same"] < outcomes["refused by the encoder"] else 0
 

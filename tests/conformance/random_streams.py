@@ -10,17 +10,15 @@ an encoder hardly have: odd parameters, boxes that are not tight, numbers at the
 
 from __future__ import annotations
 
-import argparse
 import os
 import random
 import struct
 import subprocess
 import sys
 import tempfile
-import time
-from collections import Counter
 
 import random_fast
+import seed_runs
 from bsp import Bsp
 from content import Content, checksum_of_cells
 from draft import block, text, varint, with_checksum
@@ -226,27 +224,13 @@ class Comparison:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--seconds", type=float, default=600)
-    parser.add_argument("--first", type=int, default=0)
-    parser.add_argument("--count", type=int, default=sys.maxsize)
-    parser.add_argument("--keep", help="a copy of the last file")
-    arguments = parser.parse_args()
-    outcomes: Counter = Counter()
-    end = time.monotonic() + arguments.seconds
+    arguments = seed_runs.parser_of(__doc__).parse_args()
     with tempfile.TemporaryDirectory() as folder:
         comparison = Comparison(os.environ["CONTENT_OF"], folder)
-        seed = arguments.first
-        while seed < arguments.first + arguments.count and time.monotonic() < end:
-            outcome, what = comparison.outcome(seed)
-            outcomes[outcome] += 1
-            if outcome == "different":
-                print(f"seed {seed}: {what}", flush=True)
-            seed += 1
+        outcomes = seed_runs.run(arguments, comparison.outcome)
         if arguments.keep:
             os.replace(comparison.path, arguments.keep)
         comparison.close()
-    print(f"seeds {arguments.first} to {seed - 1}: " + ", ".join(f"{n} {o}" for o, n in outcomes.items()))
     return 1 if outcomes["different"] or outcomes["same points"] < outcomes["too long"] else 0
 
 
