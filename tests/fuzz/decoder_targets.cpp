@@ -234,23 +234,22 @@ std::vector<Bytes> fileSeeds() {
   return seeds;
 }
 
-Target decodeTarget() {
+Target fileTarget(const std::string& name, void (*run)(ByteView input)) {
   Target target;
-  target.name = "decode";
-  target.run = runDecode;
+  target.name = name;
+  target.run = run;
   target.mutate = mutateFile;
   target.seeds = fileSeeds;
   target.seedFolders = {"conformance", "frozen_1.0", "golden"};
   return target;
 }
 
+Target decodeTarget() { return fileTarget("decode", runDecode); }
+
 Target queryTarget() {
-  Target target;
-  target.name = "query";
-  target.run = runQuery;
+  Target target = fileTarget("query", runQuery);
   target.mutate = mutateQuery;
   target.seeds = querySeeds;
-  target.seedFolders = {"conformance", "frozen_1.0", "golden"};
   target.suffix = kQueryBytes;
   return target;
 }

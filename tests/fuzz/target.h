@@ -33,6 +33,9 @@ std::vector<Target> targets();
 /// Small files of every method with all sorts of arrays, cells and layouts.
 std::vector<Bytes> fileSeeds();
 
+/// One that takes .bspc files.
+Target fileTarget(const std::string& name, void (*run)(ByteView input));
+
 Target decodeTarget();
 Target queryTarget();
 Target roundTripTarget();

@@ -5,7 +5,6 @@
 #include <vtkObject.h>
 #include <vtkPolyData.h>
 
-#include "file_mutator.h"
 #include "target.h"
 #include "vtkBSPReader.h"
 
@@ -44,14 +43,6 @@ void runVtkReader(ByteView input) {
 
 }  // namespace
 
-Target vtkReaderTarget() {
-  Target target;
-  target.name = "vtk_reader";
-  target.run = runVtkReader;
-  target.mutate = mutateFile;
-  target.seeds = fileSeeds;
-  target.seedFolders = {"conformance", "frozen_1.0", "golden"};
-  return target;
-}
+Target vtkReaderTarget() { return fileTarget("vtk_reader", runVtkReader); }
 
 }  // namespace bspc::fuzz
