@@ -57,8 +57,12 @@ FinishedTile SetEncoder::encodeTile(const tiling::TileCut& cut, std::size_t tile
     return encoder_.encode(points.subspan(first, count), sources, progress_.piece());
   }
   std::vector<GridPoint> own;
-  own.reserve(count);
-  for (std::size_t j = first; j < first + count; ++j) own.push_back(points[cut.order[j]]);
+  own.resize(count);
+  constexpr std::size_t kAhead = 96;  // points that are fetched while others are copied
+  for (std::size_t i = 0; i < count; ++i) {
+    __builtin_prefetch(&points[cut.order[first + std::min(i + kAhead, count - 1)]]);
+    own[i] = points[cut.order[first + i]];
+  }
   return encoder_.encode(own, sources, progress_.piece());
 }
 

@@ -77,6 +77,12 @@ class AxisMap {
   double restored(double multiple) const { return roundToScalar(type_, coordinate(multiple)); }
   double step() const { return step_; }
 
+  bool isRational() const { return rational_; }
+  ScalarType type() const { return type_; }
+  double numerator() const { return numerator_; }
+  double denominator() const { return denominator_; }
+  double origin() const { return origin_; }
+
   /// Where `value` lies in steps; infinite or NaN where doubles overflow.
   double quotient(double value) const {
     return rational_ ? (value * denominator_) / numerator_ : (value - origin_) / step_;

@@ -49,13 +49,22 @@ class Coordinates {
   /// never did.
   template <class Visit>
   bool all(std::size_t axis, Visit visit) const {
+    return allChunks(axis, [&visit](const Chunk& chunk, std::size_t count) {
+      for (std::size_t i = 0; i < count; ++i) {
+        if (!visit(chunk[i])) return false;
+      }
+      return true;
+    });
+  }
+
+  /// The same with visit(chunk, count).
+  template <class Visit>
+  bool allChunks(std::size_t axis, Visit visit) const {
     Chunk chunk;
     for (std::uint64_t first = 0; first < size_; first += kChunk) {
       const std::size_t count = chunkSize(first);
       gather(axis, first, count, chunk.data());
-      for (std::size_t i = 0; i < count; ++i) {
-        if (!visit(chunk[i])) return false;
-      }
+      if (!visit(chunk, count)) return false;
     }
     return true;
   }

@@ -6,10 +6,12 @@
 #include <cstring>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <type_traits>
 
 #include "bspc/error.h"
+#include "grid/axis_kernel.h"
 #include "grid/axis_map.h"
 #include "grid/float_grid.h"
 
@@ -214,14 +216,63 @@ double restoredCoordinate(const Grid& grid, int axis, std::uint32_t i) {
 
 namespace {
 
+constexpr std::size_t kTogether = 16;  ///< points that fill many vectors: no loop is unrolled
+using LaneIndices = std::array<std::uint32_t, 3 * kTogether>;
+
+/// Bits that the indices have along the axes, by turns: no index has another one.
+LaneIndices bitsOf(Span<const GridPoint> points) {
+  LaneIndices all{};
+  const std::size_t inBlocks = points.size() / kTogether * kTogether;
+  for (std::size_t first = 0; first < inBlocks; first += kTogether) {
+    LaneIndices block;
+    std::memcpy(block.data(), &points[first], sizeof block);
+    for (std::size_t i = 0; i < block.size(); ++i) all[i] |= block[i];
+  }
+  for (std::size_t j = inBlocks; j < points.size(); ++j) {
+    for (std::size_t k = 0; k < 3; ++k) all[k] |= points[j][k];
+  }
+  return all;
+}
+
+/// The bases in all lanes, if all multiples of the points are within the limits.
+std::optional<LaneIndices> basesWithin(const Grid& grid, Span<const GridPoint> points,
+                                       std::int64_t low, std::int64_t high) {
+  const LaneIndices all = bitsOf(points);
+  LaneIndices bases{};
+  for (std::size_t i = 0; i < bases.size(); ++i) {
+    const std::int64_t base = grid.axes[i % 3].base;
+    if (base < low || base + std::int64_t{all[i]} > high) return std::nullopt;
+    bases[i] = static_cast<std::uint32_t>(base);
+  }
+  return bases;
+}
+
+/// Calls restored(multiple, lane) for all coordinates, whose multiples must have 32 bits.
+template <class T, class Restored>
+void restoreLanes(const LaneIndices& bases, Span<const GridPoint> points, T* xyz,
+                  Restored restored) {
+  const std::size_t inBlocks = points.size() / kTogether * kTogether;
+  for (std::size_t first = 0; first < inBlocks; first += kTogether) {
+    LaneIndices block;
+    std::memcpy(block.data(), &points[first], sizeof block);
+    T* to = xyz + 3 * first;
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      to[i] = restored(static_cast<std::int32_t>(bases[i] + block[i]), i);
+    }
+  }
+  for (std::size_t j = inBlocks; j < points.size(); ++j) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      xyz[3 * j + k] = restored(static_cast<std::int32_t>(bases[k] + points[j][k]), k);
+    }
+  }
+}
+
 /// Restores a block of points whose coordinates are whole numbers in 32 bits, and are their own
 /// multiples; false if the block is not such.
 template <class T>
 bool restoreWhole(const Grid& grid, Span<const GridPoint> points, T* xyz) {
   constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
   constexpr std::int64_t kExactFloat = std::int64_t{1} << 24;
-  constexpr std::size_t kTogether = 4;  // points that fill whole vectors
-  using Block = std::array<std::uint32_t, 3 * kTogether>;
   std::int64_t low = -kMost;
   std::int64_t high = kMost;
   if (std::is_integral_v<T>) {
@@ -236,35 +287,33 @@ bool restoreWhole(const Grid& grid, Span<const GridPoint> points, T* xyz) {
     low = static_cast<std::int64_t>(std::max(static_cast<double>(low), limits.min));
     high = static_cast<std::int64_t>(std::min(static_cast<double>(high), limits.max));
   }
-  Block bases{};
-  Block all{};  // no index has a bit that is not in here
-  const std::size_t inBlocks = points.size() / kTogether * kTogether;
-  for (std::size_t first = 0; first < inBlocks; first += kTogether) {
-    Block block;
-    std::memcpy(block.data(), &points[first], sizeof block);
-    for (std::size_t i = 0; i < block.size(); ++i) all[i] |= block[i];
-  }
-  for (std::size_t j = inBlocks; j < points.size(); ++j) {
-    for (std::size_t k = 0; k < 3; ++k) all[k] |= points[j][k];
-  }
-  for (std::size_t i = 0; i < bases.size(); ++i) {
-    const std::int64_t base = grid.axes[i % 3].base;
-    if (base < low || base + std::int64_t{all[i]} > high) return false;
-    bases[i] = static_cast<std::uint32_t>(base);
-  }
-  const auto restored = [](std::uint32_t base, std::uint32_t index) {
-    return static_cast<T>(static_cast<std::int32_t>(base + index));
-  };
-  for (std::size_t first = 0; first < inBlocks; first += kTogether) {
-    Block block;
-    std::memcpy(block.data(), &points[first], sizeof block);
-    T* to = xyz + 3 * first;
-    for (std::size_t i = 0; i < block.size(); ++i) to[i] = restored(bases[i], block[i]);
-  }
-  for (std::size_t j = inBlocks; j < points.size(); ++j) {
-    for (std::size_t k = 0; k < 3; ++k) xyz[3 * j + k] = restored(bases[k], points[j][k]);
-  }
+  const auto bases = basesWithin(grid, points, low, high);
+  if (!bases) return false;
+  restoreLanes(*bases, points, xyz, [](std::int32_t multiple, std::size_t /*lane*/) {
+    return static_cast<T>(multiple);
+  });
   return true;
+}
+
+/// The same of floating-point numbers: processors convert several multiples of 32 bits at once.
+template <class T>
+bool restoreNarrow(const Grid& grid, Span<const GridPoint> points, T* xyz) {
+  constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
+  const auto bases = basesWithin(grid, points, -kMost, kMost);
+  if (!bases) return false;
+  const std::array<lattice::AxisMap, 3> maps{lattice::AxisMap(grid, 0), lattice::AxisMap(grid, 1),
+                                             lattice::AxisMap(grid, 2)};
+  return lattice::withKernel<3 * kTogether>(maps, [&](const auto& kernel) {
+    restoreLanes(*bases, points, xyz, [kernel](std::int32_t multiple, std::size_t lane) {
+      const auto value = kernel.restored(multiple, lane);
+      if constexpr (std::is_same_v<decltype(value), const T>) {
+        return value;
+      } else {
+        return toScalar<T>(double{value});
+      }
+    });
+    return true;
+  });
 }
 
 bool hasWholeSteps(const Grid& grid) {
@@ -326,6 +375,7 @@ void restorePositions(const Grid& grid, Span<const GridPoint> points, T* xyz) {
   for (std::size_t first = 0; first < points.size(); first += kBlock) {
     const std::size_t count = std::min(kBlock, points.size() - first);
     if (whole && restoreWhole(grid, points.subspan(first, count), xyz + 3 * first)) continue;
+    if (restoreNarrow(grid, points.subspan(first, count), xyz + 3 * first)) continue;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       restoreAxis(grid, axis, points.subspan(first, count), xyz + 3 * first);
     }

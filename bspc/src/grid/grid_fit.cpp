@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "bspc/error.h"
+#include "grid/axis_kernel.h"
 #include "grid/axis_map.h"
 #include "grid/float_grid.h"
 #include "grid/known_lattice.h"
@@ -204,6 +205,7 @@ class ChunkQuantiser {
     // Copies, so that the loops need no loads through this.
     const AxisMap map = map_;
     const double base = base_;
+    if (exact_ && runNarrow(values, count, points)) return;
     if (exact_) {
       for (std::size_t i = 0; i < count; ++i) {
         points[i][axis_] =
@@ -216,6 +218,22 @@ class ChunkQuantiser {
   double maxError() const { return maxError_; }
 
  private:
+  /// Numbers on the grid whose multiples have 32 bits; false if they are not such.
+  bool runNarrow(const Coordinates::Chunk& values, std::size_t count,
+                 std::vector<GridPoint>& points) const {
+    std::array<std::int32_t, Coordinates::kChunk> multiples;
+    const bool narrow = withKernel(map_, [&](const auto& kernel) {
+      return nearestMultiples(kernel, values.data(), count, multiples);
+    });
+    if (!narrow) return false;
+    // Differences have 32 bits, so they are right even if the base has more.
+    const auto base = static_cast<std::uint32_t>(static_cast<std::int64_t>(base_));
+    for (std::size_t i = 0; i < count; ++i) {
+      points[i][axis_] = static_cast<std::uint32_t>(multiples[i]) - base;
+    }
+    return true;
+  }
+
   std::uint32_t snapped(const AxisMap& map, double value) {
     AxisMap::Snapped snapped = map.snap(value);
     // Ties may be broken differently for neighbours, but nothing may leave the index range.

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <numeric>
 
 #include "grid/affine_lattice.h"
+#include "grid/axis_kernel.h"
 #include "grid/exact_divisor.h"
 #include "grid/points_in_memory.h"
 #include "grid/ratio.h"
@@ -40,13 +42,36 @@ class Checker {
     if (!map_.reaches(value)) return false;
     const double multiple = nearestInteger(map_.quotient(value));
     if (map_.restored(multiple) != value) return false;
-    if (wantsDivisor_) take(multiple);
+    if (wantsDivisor_) take(static_cast<std::uint64_t>(std::fabs(multiple)));
+    return true;
+  }
+
+  /// All of a chunk; the divisor means nothing if not all of them lie on the lattice.
+  bool operator()(const Coordinates::Chunk& values, std::size_t count) {
+    std::array<std::int32_t, Coordinates::kChunk> multiples;
+    bool restores = false;
+    const bool narrow = withKernel(map_, [&](const auto& kernel) {
+      if (!nearestMultiples(kernel, values.data(), count, multiples)) return false;
+      std::uint64_t different = 0;
+      for (std::size_t i = 0; i < count; ++i) {
+        different |= kernel.restored(multiples[i]) == values[i] ? 0U : 1U;
+      }
+      restores = different == 0;
+      return true;
+    });
+    if (!narrow) {
+      return std::all_of(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count),
+                         [this](double value) { return (*this)(value); });
+    }
+    if (!restores || !wantsDivisor_) return restores;
+    for (std::size_t i = 0; i < count && divisor() != 1; ++i) {
+      take(static_cast<std::uint64_t>(std::abs(std::int64_t{multiples[i]})));
+    }
     return true;
   }
 
  private:
-  void take(double multiple) {
-    const auto k = static_cast<std::uint64_t>(std::fabs(multiple));
+  void take(std::uint64_t k) {
     if (k == 0 || (any_ && divisor_.divides(k))) return;
     divisor_ = ExactDivisor(any_ ? std::gcd(divisor_.value(), k) : k);
     any_ = true;
@@ -269,10 +294,16 @@ bool liesOn(const Coordinates& coordinates, std::size_t axis, const AxisMap& map
     if (common && divisor != nullptr) *divisor = *common;
     return common.has_value();
   }
-  if (!whole || divisor != nullptr) {
+  if (!whole) {
+    const bool all =
+        coordinates.allChunks(axis, [&check](const Coordinates::Chunk& chunk, std::size_t count) {
+          return check(chunk, count);
+        });
+    if (!all) return false;
+  } else if (divisor != nullptr) {
     const bool all = coordinates.all(
-        axis, [&](double value) { return check(value) && !(whole && check.divisor() == 1); });
-    if (!all && !(whole && check.divisor() == 1)) return false;
+        axis, [&check](double value) { return check(value) && check.divisor() != 1; });
+    if (!all && check.divisor() != 1) return false;
   }
   if (divisor != nullptr) *divisor = check.divisor();
   return true;
