@@ -51,6 +51,21 @@ MeshCells terrainFaces(unsigned side) {
   return cells;
 }
 
+/// Triangles between the points of terrain(), their diagonals this way and that.
+MeshCells terrainTriangles(unsigned side) {
+  MeshCells cells;
+  const auto add = [&](std::vector<std::uint32_t> face) { cells.faces.add(face); };
+  for (unsigned y = 0; y + 1 < side; ++y) {
+    for (unsigned x = 0; x + 1 < side; ++x) {
+      const std::uint32_t a = y * side + x;
+      const std::uint32_t across = (x + y) % 3 == 0 ? a + side : a + side + 1;
+      add({a, a + 1, across});
+      add({across == a + side ? a + 1 : a, a + side + 1, a + side});
+    }
+  }
+  return cells;
+}
+
 std::vector<double> noise(unsigned count, std::uint64_t range) {
   std::mt19937_64 random(2026);
   std::vector<double> xyz;
@@ -133,7 +148,8 @@ std::vector<GoldenFile> goldenFiles() {
     if (method == Method::Surface) continue;  // without faces it is nothing of its own
     const auto add = [&](const std::string& what, std::vector<double> xyz, ScalarType type,
                          Layout layout, unsigned layers, const GridRequest& grid) {
-      GoldenFile file{std::string(name).append("_").append(what), std::move(xyz), type, {}, {}, {}};
+      GoldenFile file{
+          std::string(name).append("_").append(what), std::move(xyz), type, {}, {}, {}, {}};
       file.options.method = method;
       file.options.layout = layout;
       file.options.layers = layers;
@@ -174,10 +190,21 @@ std::vector<GoldenFile> goldenFiles() {
                     ScalarType::Float32,
                     {},
                     {},
-                    terrainFaces(30)};
+                    terrainFaces(30),
+                    {}};
     file.options.method = method;
     files.push_back(std::move(file));
   }
+  GoldenFile values{"surface_mesh_arrays",
+                    terrain(9, 1, 0),
+                    ScalarType::Float32,
+                    {},
+                    {},
+                    terrainTriangles(9),
+                    {}};
+  values.cellArrays = goldenArrays(values.cells.faces.size());
+  values.options.method = Method::Surface;
+  files.push_back(std::move(values));
   return files;
 }
 
@@ -202,15 +229,17 @@ Bytes encodeGolden(const GoldenFile& file, DecodedOrder* decoded) {
                                                          : PointSetView(file.xyz.data(), count);
   for (const ArrayValues& array : file.arrays) points.addArray(array.view());
   if (!file.cells.empty()) points.setMesh(&file.cells);
+  for (const ArrayValues& array : file.cellArrays) points.addCellArray(array.view());
   report = encode(points, sink, options);
   if (decoded == nullptr) return sink.take();
   decoded->points = report.order;
   decoded->cells = report.cellOrder;
   for (const std::uint64_t i : report.order) {
     for (std::size_t k = 0; k < 3; ++k) decoded->xyz.push_back(file.xyz[3 * i + k]);
-    std::string tuples;
-    for (const ArrayValues& array : file.arrays) tuples += tupleOf(array, i);
-    decoded->tuples.push_back(std::move(tuples));
+    decoded->tuples.push_back(tuplesOf(file.arrays, i));
+  }
+  for (const std::uint64_t i : report.cellOrder) {
+    decoded->cellTuples.push_back(tuplesOf(file.cellArrays, i));
   }
   return sink.take();
 }

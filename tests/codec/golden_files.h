@@ -16,6 +16,7 @@ struct GoldenFile {
   EncodeOptions options;
   std::vector<ArrayValues> arrays;  ///< in the order of the points
   MeshCells cells;                  ///< faces only
+  std::vector<ArrayValues> cellArrays;
 };
 
 std::vector<GoldenFile> goldenFiles();
@@ -28,9 +29,10 @@ Bytes readGolden(const std::string& path);
 /// What a decoder gives back.
 struct DecodedOrder {
   std::vector<double> xyz;
-  std::vector<std::string> tuples;    ///< of all arrays together, one a point
-  std::vector<std::uint64_t> points;  ///< input index of each
-  std::vector<std::uint64_t> cells;   ///< likewise
+  std::vector<std::string> tuples;      ///< of all arrays together, one a point
+  std::vector<std::string> cellTuples;  ///< likewise, one a cell
+  std::vector<std::uint64_t> points;    ///< input index of each
+  std::vector<std::uint64_t> cells;     ///< likewise
 };
 
 /// The bytes that this build's encoder makes of it, and its points in the order of the decoder.

@@ -33,6 +33,7 @@ from bad_payloads import (
     partition_rules,
     predictive_rules,
     streaming_mesh_rules,
+    surface_array_rules,
     surface_rules,
 )
 from content import Content
@@ -66,6 +67,7 @@ def all_bad_files() -> Iterator[BadFile]:
     yield from cell_array_rules(good("all_cells"), good("joined_cells"))
     yield from streaming_mesh_rules(good("mesh_streaming"))
     yield from surface_rules(good("surface_mesh"), good("random_surface_647"))
+    yield from surface_array_rules(good("surface_mesh_arrays"))
 
 
 def second_decoder(data: bytes) -> str:

@@ -308,25 +308,40 @@ def mesh_rules(good: bytes) -> Iterator[BadFile]:
     yield from cases.files
 
 
+class CellCases(PayloadCases):
+    """Of a file with one Mesh block and arrays beside its cells."""
+
+    def __init__(self, name: str, good: bytes):
+        super().__init__(good)
+        self.name, self.draft = name, Draft(good)
+        self.record = MeshRecord(dict(self.draft.records)[3])
+
+    def changed(self, what: str, change: Callable[[MeshDraft], None], kind: str = CORRUPT) -> None:
+        mesh = MeshDraft(self.draft.mesh_blocks[0], self.record)
+        change(mesh)
+        self.set(f"{self.name}: {what}", kind, mesh_blocks=[mesh.bytes()])
+
+    def arrays(self) -> None:
+        for number, array in enumerate(self.record.arrays):
+            name = array.name.decode()
+            wrong = bytes(array.content_width(sum(self.record.counts)))
+            self.changed(
+                f"another content of the array {name}", lambda m: m.value_contents.__setitem__(number, wrong)
+            )
+            self.changed(f"the array {name} without a payload", lambda m: m.values.__setitem__(number, b""))
+            self.changed(
+                f"the array {name} of no method", lambda m: m.values.__setitem__(number, b"\x09"), UNSUPPORTED
+            )
+
+
 def cell_array_rules(good: bytes, joined: bytes) -> Iterator[BadFile]:
     """Section 15, of a file with arrays beside its cells, and of one with two Mesh blocks."""
-    cases = PayloadCases(good)
-    draft = Draft(good)
-    record = MeshRecord(dict(draft.records)[3])
-
-    def changed(what: str, change: Callable[[MeshDraft], None], kind: str = CORRUPT) -> None:
-        mesh = MeshDraft(draft.mesh_blocks[0], record)
-        change(mesh)
-        cases.set(f"cells: {what}", kind, mesh_blocks=[mesh.bytes()])
-
-    for number, array in enumerate(record.arrays):
-        name = array.name.decode()
-        wrong = bytes(array.content_width(sum(record.counts)))
-        changed(f"another content of the array {name}", lambda m: m.value_contents.__setitem__(number, wrong))
-        changed(f"the array {name} without a payload", lambda m: m.values.__setitem__(number, b""))
-        changed(f"the array {name} of no method", lambda m: m.values.__setitem__(number, b"\x09"), UNSUPPORTED)
-    changed("2^60 in a block", lambda m: setattr(m, "counts", varint(1 << 60) * 3))
-    changed("other numbers of each sort", lambda m: setattr(m, "counts", m.counts[1:2] + m.counts[:1] + m.counts[2:]))
+    cases = CellCases("cells", good)
+    cases.arrays()
+    cases.changed("2^60 in a block", lambda m: setattr(m, "counts", varint(1 << 60) * 3))
+    cases.changed(
+        "other numbers of each sort", lambda m: setattr(m, "counts", m.counts[1:2] + m.counts[:1] + m.counts[2:])
+    )
     yield from cases.files
 
     cases = PayloadCases(joined)
@@ -337,6 +352,16 @@ def cell_array_rules(good: bytes, joined: bytes) -> Iterator[BadFile]:
     second.first_tile = b"\0"
     cases.set("Mesh blocks that overlap", mesh_blocks=[draft.mesh_blocks[0], second.bytes()])
     cases.set("a Mesh block too few", "truncated", mesh_blocks=draft.mesh_blocks[:1])
+    yield from cases.files
+
+
+def surface_array_rules(good: bytes) -> Iterator[BadFile]:
+    """Sections 15 and 16, of a tile of method surface with arrays beside its cells."""
+    cases = CellCases("cells of a surface", good)
+    cases.arrays()
+    mesh = MeshDraft(cases.draft.mesh_blocks[0], cases.record)
+    mesh.tiles = varint(2)
+    cases.set("cells of version 1 over two surfaces", tiles=cases.draft.tiles * 2, mesh_blocks=[mesh.bytes()])
     yield from cases.files
 
 

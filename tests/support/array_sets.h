@@ -58,4 +58,11 @@ inline std::string tupleOf(const ArrayValues& array, std::size_t i) {
           array.values.begin() + static_cast<std::ptrdiff_t>((i + 1) * size)};
 }
 
+/// Tuple i of each of them, joined.
+inline std::string tuplesOf(const std::vector<ArrayValues>& arrays, std::size_t i) {
+  std::string tuples;
+  for (const ArrayValues& array : arrays) tuples += tupleOf(array, i);
+  return tuples;
+}
+
 }  // namespace bspc::test
