@@ -8,8 +8,9 @@ if (($# > 0)); then
 Usage: scripts/compilers.sh
 
 Builds the command with g++ and clang++ at -O0 and -O3 into build/compilers, encodes the models of
-Testing/Data with each in several settings, and checks that all four restore the same bytes from
-each file. Says too whether the files themselves are equal, which the format does not ask for.
+Testing/Data, and a mesh, with each in several settings, and checks that all four restore the same
+bytes from each file and from each good file of the conformance set. Says too whether the files
+themselves are equal, which the format does not ask for.
 scripts/setup.sh --compilers installs what it needs.
 END
   [[ $1 == -h || $1 == --help ]] && exit 0
@@ -56,6 +57,9 @@ settings=(
   "--effort 5 --bits 12"
   "--effort 7 --bits 16 --layers 3"
   "--effort 9 --bits 20"
+  "--method predictive --layers 3"
+  "--method surface"
+  "--method surface --bits 14"
 )
 
 work=$root/work
@@ -65,12 +69,12 @@ files=0
 differing_files=0
 failures=0
 
-# What all builds restore from $1 must be what the first one does.
+# What all builds restore from $1, as a model of format $3 (ply), must be what the first one does.
 compare_decoders() {
-  local file=$1 what=$2 build
+  local file=$1 what=$2 format=${3:-ply} build
   for build in "${builds[@]}"; do
-    "$root/$build/bin/bspc" decode "$file" "$work/$build.ply" --force --quiet
-    if ! cmp -s "$work/${builds[0]}.ply" "$work/$build.ply"; then
+    "$root/$build/bin/bspc" decode "$file" "$work/$build.$format" --force --quiet
+    if ! cmp -s "$work/${builds[0]}.$format" "$work/$build.$format"; then
       echo "compilers: $what: $build restores other points than ${builds[0]}" >&2
       failures=$((failures + 1))
     fi
@@ -78,11 +82,23 @@ compare_decoders() {
 }
 
 shopt -s nullglob
+good=(Testing/Data/{frozen_1.0,golden,conformance}/*.bspc)
 models=(Testing/Data/*.ply)
-((${#models[@]} > 0)) || {
-  echo "compilers: there are no models in Testing/Data" >&2
+((${#models[@]} > 0 && ${#good[@]} > 0)) || {
+  echo "compilers: there are no models or no files in Testing/Data" >&2
   exit 1
 }
+for file in "${good[@]}"; do
+  # PLY has no place for lines and texts.
+  for format in ply obj csv; do
+    "$root/${builds[0]}/bin/bspc" decode "$file" "$work/first.$format" --force --quiet 2>/dev/null &&
+      break
+  done
+  compare_decoders "$file" "$file" "$format"
+done
+# No model there has faces.
+"$root/${builds[0]}/bin/bspc" decode Testing/Data/golden/surface_mesh.bspc "$work/mesh.ply" --quiet
+models+=("$work/mesh.ply")
 for model in "${models[@]}"; do
   for setting in "${settings[@]}"; do
     what="$(basename "$model") ${setting:-default}"
@@ -105,6 +121,7 @@ for model in "${models[@]}"; do
   done
 done
 
+echo "compilers: ${#good[@]} good files, each decoded by ${#builds[@]} builds"
 echo "compilers: $files models and settings, each encoded and decoded by ${#builds[@]} builds"
 if ((failures > 0)); then
   echo "compilers: FAILED: $failures times a build restored other points" >&2
