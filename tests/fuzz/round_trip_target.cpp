@@ -12,6 +12,7 @@
 #include "bspc/part_encoder.h"
 #include "bspc/stream_encoder.h"
 #include "round_trip_input.h"
+#include "streaming/stream_coding.h"
 #include "target.h"
 
 namespace bspc::fuzz {
@@ -345,6 +346,59 @@ void goAroundAsStream(const RoundTripInput& input) {
   if (stream.bytes() != whole.bytes()) fail("a stream that is coded otherwise");
 }
 
+class Scratch final : public ScratchStorage {
+ public:
+  std::uint64_t size() const override { return bytes_.size(); }
+  void read(std::uint64_t offset, Span<std::uint8_t> into) override {
+    MemorySource(bytes_).read(offset, into);
+  }
+  void append(ByteView bytes) override { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
+
+ private:
+  Bytes bytes_;
+};
+
+/// The input indices of decoded points, from the only array that was not given.
+std::vector<std::uint64_t> idsOf(const DecodedPoints& decoded, const RoundTripInput& input) {
+  for (const ArrayValues& array : decoded.arrays) {
+    const bool given = std::any_of(input.arrays.begin(), input.arrays.end(),
+                                   [&](const ArrayValues& a) { return a.name == array.name; });
+    if (given) continue;
+    if (array.values.size() != 8 * decoded.points.size()) fail("ids of other points");
+    std::vector<std::uint64_t> ids(decoded.points.size());
+    if (!ids.empty()) std::memcpy(ids.data(), array.values.data(), array.values.size());
+    return ids;
+  }
+  fail("no ids");
+}
+
+/// A stream that does not fit into memory.
+void goAroundThroughScratch(RoundTripInput input, std::uint64_t memory) {
+  input.cells = {};
+  input.cellArrays.clear();
+  input.options.originalIds = true;
+  StreamOptions options;
+  options.encoding = input.options;
+  options.encoding.wantOrder = false;
+  options.scratch = [] { return std::make_unique<Scratch>(); };
+  MemorySink sink;
+  EncodeReport report;
+  try {
+    PieceReader reader(input);
+    report = streaming::encodeStreamWithin(memory, reader, sink, options);
+  } catch (const Error& error) {
+    checkRefusal(error);
+    return;
+  }
+  Decoder decoder(std::make_shared<MemorySource>(sink.bytes()));
+  const DecodedPoints decoded = decoder.decode(oneThread());
+  report.order = idsOf(decoded, input);
+  Comparison(input, report, decoded).check();
+  if (!sameMetadata(decoder.info().metadata, input.options.metadata)) fail("other metadata");
+  if (sink.bytes().size() != report.fileBytes) fail("a file of another size");
+  checkLevels(decoder);
+}
+
 /// Several writers of one file.
 void goAroundInParts(const RoundTripInput& input) {
   EncodeOptions options = input.options;
@@ -396,11 +450,13 @@ void goAroundInParts(const RoundTripInput& input) {
 void runRoundTrip(ByteView bytes) {
   Choices choices(bytes);
   const std::uint64_t way = choices.below(16);
+  const std::uint64_t memory = way == 2 || way == 3 ? 1 + choices.below(1U << 14) : 0;
   const RoundTripInput input(choices);
   try {
     goAround(input);
     if (way == 0) goAroundInParts(input);
     if (way == 1) goAroundAsStream(input);
+    if (way == 2 || way == 3) goAroundThroughScratch(input, memory);
   } catch (const Error& error) {
     fail("a decoder that refuses what was encoded: " + std::string(error.what()));
   }

@@ -21,6 +21,7 @@
 #include "streaming/record_layout.h"
 #include "streaming/stored_coordinates.h"
 #include "streaming/stored_set.h"
+#include "streaming/stream_coding.h"
 
 namespace bspc {
 
@@ -97,12 +98,12 @@ struct FirstPoints {
   bool ended = false;  ///< they are all
 };
 
-FirstPoints readFirst(PointReader& reader, const StreamOptions& options, ProgressScale& progress) {
+FirstPoints readFirst(PointReader& reader, std::uint64_t pointBytes, ProgressScale& progress) {
   PieceReader pieces(reader);
   const std::size_t tupleBytes = pieces.rowBytes() - pieces.pointBytes();
   // Values are copied once more where a tile is coded.
-  const std::uint64_t most = memoryFor(options) / (pieces.rowBytes() + tupleBytes +
-                                                   sizeof(GridPoint) + kCodingBytesPerPoint);
+  const std::uint64_t most =
+      pointBytes / (pieces.rowBytes() + tupleBytes + sizeof(GridPoint) + kCodingBytesPerPoint);
   FirstPoints first;
   first.points.values = pieces.noValues();
   // Address space alone: memory is taken as points come.
@@ -130,8 +131,9 @@ void checkOptions(const StreamOptions& options) {
 
 class LargeSetEncoder {
  public:
-  LargeSetEncoder(const StreamOptions& options, ByteSink& sink, ProgressScale& progress)
-      : options_(options), sink_(sink), progress_(progress) {}
+  LargeSetEncoder(const StreamOptions& options, std::uint64_t pointBytes, ByteSink& sink,
+                  ProgressScale& progress)
+      : options_(options), pointBytes_(pointBytes), sink_(sink), progress_(progress) {}
 
   EncodeReport run(FirstPoints first, PointReader& reader) {
     if (!options_.scratch) {
@@ -208,7 +210,7 @@ class LargeSetEncoder {
     if (options_.encoding.keepOrder) {
       parts_->keepTogether(options_.scratch());
     } else {
-      parts_->cut(options_.scratch(), memoryFor(options_) / 8);
+      parts_->cut(options_.scratch(), pointBytes_ / 8);
     }
     lattice::quantise(
         coordinates, ranges, {report_.grid, exact},
@@ -276,7 +278,7 @@ class LargeSetEncoder {
   std::uint64_t partPoints() const {
     // Records are copied once more where a tile is coded.
     const std::size_t bytes = sizeof(GridPoint) + 2 * recordBytes() + kCodingBytesPerPoint;
-    return std::min<std::uint64_t>(memoryFor(options_) / bytes, std::uint64_t{1} << 31);
+    return std::clamp(pointBytes_ / bytes, std::uint64_t{1}, std::uint64_t{1} << 31);
   }
 
   tiling::DyadicBox gridBox(const lattice::Ranges& ranges) const {
@@ -320,6 +322,7 @@ class LargeSetEncoder {
   }
 
   const StreamOptions& options_;
+  std::uint64_t pointBytes_;
   ByteSink& sink_;
   ProgressScale& progress_;
   std::unique_ptr<streaming::RecordLayout> records_;
@@ -340,16 +343,23 @@ const std::vector<ArrayDescription>& PointReader::arrays() const {
 }
 
 EncodeReport encodeStream(PointReader& points, ByteSink& sink, const StreamOptions& options) {
+  return streaming::encodeStreamWithin(memoryFor(options), points, sink, options);
+}
+
+EncodeReport streaming::encodeStreamWithin(std::uint64_t pointBytes, PointReader& points,
+                                           ByteSink& sink, const StreamOptions& options) {
   checkOptions(options);
   checkDescriptions(points.arrays(), options.encoding);
   checkMetadata(options.encoding.metadata);
   planCoding(options.encoding, 0);  // wishes that cannot be met are refused before any work
   ProgressScale progress(options.encoding.progress, 0, 1);
-  FirstPoints first = readFirst(points, options, progress);
-  if (!first.ended) return LargeSetEncoder(options, sink, progress).run(std::move(first), points);
-  const std::size_t pointBytes = 3 * scalarSize(points.type());
+  FirstPoints first = readFirst(points, pointBytes, progress);
+  if (!first.ended) {
+    return LargeSetEncoder(options, pointBytes, sink, progress).run(std::move(first), points);
+  }
+  const std::size_t size = 3 * scalarSize(points.type());
   PointSetView view(first.points.positions.data(), points.type(),
-                    first.points.positions.size() / pointBytes, 0);
+                    first.points.positions.size() / size, 0);
   for (const ArrayValues& array : first.points.values) view.addArray(array.view());
   return encode(view, sink, options.encoding);
 }
