@@ -151,8 +151,9 @@ class Decoder::Impl {
   /// Tiles that are in memory for each of several threads: one in its hands, two that wait.
   static constexpr std::uint64_t kWaiting = 3;
 
-  void decodeQuery(const Query& query, const DecodeOptions& options,
+  void decodeQuery(const Query& query, const DecodeOptions& options, ProgressScale scale,
                    const std::function<std::uint64_t()>& bytesInUse, const TileVisitor& visit);
+  double shareOfPoints(const Query& query) const;
   unsigned threadsFor(const Query& query, const DecodeOptions& options) const;
   DecodedPoints place(const Query& query, std::size_t index, TileContent decoded) const;
   void addArrays(const Query& query, DecodedTileArrays values, DecodedPoints& points) const;
@@ -228,9 +229,9 @@ unsigned Decoder::Impl::threadsFor(const Query& query, const DecodeOptions& opti
 
 /// Decodes the tiles of a query, on several threads, and hands them on in order.
 void Decoder::Impl::decodeQuery(const Query& query, const DecodeOptions& options,
+                                ProgressScale scale,
                                 const std::function<std::uint64_t()>& bytesInUse,
                                 const TileVisitor& visit) {
-  ProgressScale scale(options.progress, 0, 1);
   SharedProgress progress(scale, query.points);
   progress.report();
   const unsigned threads = threadsFor(query, options);
@@ -249,6 +250,14 @@ void Decoder::Impl::decodeQuery(const Query& query, const DecodeOptions& options
   scale.report(1);
 }
 
+/// What decoding the points is of the work, if the cells follow.
+double Decoder::Impl::shareOfPoints(const Query& query) const {
+  const container::CellCounts& cells = file_.head().mesh.counts;
+  const auto points = static_cast<double>(query.points);
+  return points / (points + static_cast<double>(cells.vertices) + static_cast<double>(cells.lines) +
+                   static_cast<double>(cells.faces) + 1);
+}
+
 DecodedPoints Decoder::Impl::decode(const DecodeOptions& options) {
   const Query query = planQuery(file_, options);
   for (const std::size_t i : query.tiles) {
@@ -258,9 +267,12 @@ DecodedPoints Decoder::Impl::decode(const DecodeOptions& options) {
     requireRoom(query.points, bytesPerPoint(file_, query, options), limits_.points,
                 limits_.memoryBytes);
   }
+  const bool withMesh =
+      options.mesh && query.complete && file_.head().mesh.blocks > 0 && !file_.meshMissing();
+  const double share = withMesh ? shareOfPoints(query) : 1;
   DecodedTiles all(limits_, query.points);
   decodeQuery(
-      query, options, [&all] { return all.bytes(); },
+      query, options, ProgressScale(options.progress, 0, share), [&all] { return all.bytes(); },
       [&all](DecodedPoints&& points) { all.append(std::move(points)); });
   DecodedPoints result = all.take();
   if (query.tiles.empty()) {
@@ -273,9 +285,13 @@ DecodedPoints Decoder::Impl::decode(const DecodeOptions& options) {
   if (query.thin && result.points.size() > *options.maxPoints) {
     thinTo(*options.maxPoints, result);
   }
-  if (options.mesh && query.complete && file_.head().mesh.blocks > 0 && !file_.meshMissing()) {
+  if (withMesh) {
+    ProgressScale scale(options.progress, share, 1);
     const std::uint64_t used = all.bytes();
-    decodeMesh(file_, limits_.memoryBytes > used ? limits_.memoryBytes - used : 0, result);
+    decodeMesh(
+        file_, limits_.memoryBytes > used ? limits_.memoryBytes - used : 0,
+        [&scale](double done) { scale.report(done); }, result);
+    scale.report(1);
   }
   return result;
 }
@@ -285,7 +301,7 @@ void Decoder::Impl::decodeTiles(const DecodeOptions& options, const TileVisitor&
   double before = 0;
   std::uint64_t kept = 0;
   decodeQuery(
-      query, options, [] { return std::uint64_t{0}; },
+      query, options, ProgressScale(options.progress, 0, 1), [] { return std::uint64_t{0}; },
       [&](DecodedPoints&& points) {
         if (query.thin) {
           // Shares are rounded down to where the tile ends, so that they add up to the budget.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <thread>
@@ -22,9 +23,10 @@ class SharedProgress {
 
   /// The progress of one piece of work, for the thread that does it.
   geometry::PointProgress piece() {
-    return [this, before = std::uint64_t{0}](std::uint64_t done) mutable {
-      if (done > before) add(done - before);
-      before = done;
+    return [this, most = std::uint64_t{0}](std::uint64_t done) mutable {
+      const std::uint64_t before = most;
+      most = std::max(most, done);
+      add(most - before);  // of nothing too: it learns that it is to stop
     };
   }
   void add(std::uint64_t points) {

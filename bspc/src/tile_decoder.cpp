@@ -59,6 +59,7 @@ TileContent TileDecoder::decode(std::size_t tile, const Query& query, const Deco
                              (decoded.counts.size() + decoded.cellIds.size()) * 8 +
                              decoded.layerOrder.size() * sizeof(std::uint32_t);
   const auto readChunk = [&](std::size_t column) {
+    if (progress) progress(decoded.points.size());
     const std::lock_guard<std::mutex> lock(reading_);
     return file_.chunk(tile, column);
   };

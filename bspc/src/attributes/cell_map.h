@@ -6,6 +6,7 @@
 
 #include "attributes/morton.h"
 #include "bspc/span.h"
+#include "hash_multiplier.h"
 
 namespace bspc::attributes {
 
@@ -26,9 +27,8 @@ class CellMap {
     }
     ends_ = starts_;
     members_.resize(curve.size());
-    std::size_t slots = 64;
-    while (slots < 2 * codes_.size()) slots *= 2;
-    slots_.assign(slots, kNone);
+    while (std::size_t{1} << slotBits_ < 2 * codes_.size()) ++slotBits_;
+    slots_.assign(std::size_t{1} << slotBits_, kNone);
     for (std::size_t c = 0; c < codes_.size(); ++c) {
       std::size_t slot = slotOf(codes_[c]);
       while (slots_[slot] != kNone) slot = (slot + 1) & (slots_.size() - 1);
@@ -74,10 +74,10 @@ class CellMap {
   }
 
  private:
-  std::size_t slotOf(std::uint64_t code) const {
-    return static_cast<std::size_t>((code * 0x9E3779B97F4A7C15ULL) >> 32) & (slots_.size() - 1);
-  }
+  std::size_t slotOf(std::uint64_t code) const { return hashPlace(code, multiplier_, slotBits_); }
 
+  std::uint64_t multiplier_ = hashMultiplier();
+  unsigned slotBits_ = 6;
   std::vector<std::uint64_t> codes_;
   std::vector<std::uint32_t> starts_;
   std::vector<std::uint32_t> ends_;  ///< of the lists

@@ -232,7 +232,7 @@ class MeshEncoder {
     }
     std::vector<std::uint32_t> places(order.size());
     for (std::uint32_t k = 0; k < order.size(); ++k) places[order[k]] = k;
-    FaceOrder<SymbolWriter>(coder_, result_.decoded.faces).code(places, starts);
+    FaceOrder<SymbolWriter>(coder_, result_.decoded.faces).code(places, starts, noCheck);
     result_.decoded.faces = renumbered(cells_.faces);
   }
 
@@ -297,7 +297,7 @@ class MeshEncoder {
       for (std::size_t j = 0; j < face.size(); ++j)
         points.push_back(face[(start + j) % face.size()]);
     }
-    split.codeFront(front, points);
+    split.codeFront(front, points, noCheck);
     for (const std::uint32_t i : prepared.irregular) {
       for (const std::uint32_t point : faces[i]) split.codeAlone(welding_->vertexOf(point), point);
     }
@@ -370,8 +370,13 @@ class MeshEncoder {
 class MeshDecoder {
  public:
   MeshDecoder(const MeshPoints& points, ByteView payload, std::uint64_t maxBytes,
-              const std::function<Cells(std::uint64_t)>& surface)
-      : points_(points), maxBytes_(maxBytes), surface_(surface), coder_(payload) {
+              const std::function<Cells(std::uint64_t)>& surface,
+              const std::function<void(std::uint64_t)>& working)
+      : points_(points),
+        maxBytes_(maxBytes),
+        surface_(surface),
+        working_(working),
+        coder_(payload) {
     check(0);
     places_ = placesOf(points);
   }
@@ -418,7 +423,11 @@ class MeshDecoder {
   }
 
   /// Throws unless what is known of the points, the cells, and `bytes` more are within the limits.
-  void check(std::uint64_t bytes) const {
+  /// `inFront`: faces that are coded and not yet among the cells.
+  void check(std::uint64_t bytes, std::uint64_t inFront = 0) const {
+    if (working_) {
+      working_(cells_.vertices.size() + cells_.lines.size() + cells_.faces.size() + inFront);
+    }
     bytes = saturatingAdd(bytes, points_.points.size() * kBytesPerPoint);
     for (const Cells* cells : {&cells_.vertices, &cells_.lines, &cells_.faces}) {
       if (cells->indices.size() > kMostNumbers) {
@@ -446,14 +455,16 @@ class MeshDecoder {
     UnknownFaces truth;
     Cells irregular;
     FacesSection<SymbolReader, UnknownFaces> section(coder_, head, welding ? places : places_);
-    section.codeVertices(truth, irregular, [&](std::size_t bytes) { check(3 * bytes); });
+    section.codeVertices(truth, irregular,
+                         [&](std::size_t bytes) { check(3 * bytes, section.front().faces()); });
     const Span<const std::uint32_t> corners = section.front().allCorners();
     // The faces themselves, the points of their corners, and the front until they are there.
     check(section.front().bytes() + 12 * (corners.size() + irregular.indices.size()));
     std::vector<std::uint32_t> points(corners.begin(), corners.end());
     if (welding) {
       CornerSplit<SymbolReader> split(coder_, *welding, false);
-      split.codeFront(section.front(), points);
+      split.codeFront(section.front(), points,
+                      [&] { check(section.front().bytes(), section.front().faces()); });
       for (std::uint32_t& point : irregular.indices) point = split.codeAlone(point, 0);
     }
     section.appendRegular(points, cells_.faces);
@@ -484,7 +495,7 @@ class MeshDecoder {
           kOrderBytesPerFace * cells_.faces.size());
     std::vector<std::uint32_t> order;
     std::vector<std::uint32_t> starts;
-    FaceOrder<SymbolReader>(coder_, cells_.faces).code(order, starts);
+    FaceOrder<SymbolReader>(coder_, cells_.faces).code(order, starts, [&] { check(0); });
     Cells ordered;
     std::vector<std::uint32_t> face;
     for (std::size_t t = 0; t < order.size(); ++t) {
@@ -499,6 +510,7 @@ class MeshDecoder {
   const MeshPoints& points_;
   std::uint64_t maxBytes_;
   const std::function<Cells(std::uint64_t)>& surface_;
+  const std::function<void(std::uint64_t)>& working_;
   SymbolReader coder_;
   std::vector<Position> places_;
   MeshCells cells_;
@@ -519,11 +531,12 @@ EncodedMesh encodeMesh(const MeshPoints& points, const MeshCells& cells, const C
 }
 
 MeshCells decodeMesh(const MeshPoints& points, ByteView payload, std::uint64_t maxBytes,
-                     const std::function<Cells(std::uint64_t)>& surface) {
+                     const std::function<Cells(std::uint64_t)>& surface,
+                     const std::function<void(std::uint64_t)>& working) {
   if (points.points.size() > kMostNumbers) {
     throw Error(ErrorCode::Corrupt, "a mesh of more than 2^32 points cannot have cells");
   }
-  return MeshDecoder(points, payload, maxBytes, surface).decode();
+  return MeshDecoder(points, payload, maxBytes, surface, working).decode();
 }
 
 }  // namespace bspc::connectivity

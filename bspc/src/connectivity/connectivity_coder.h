@@ -54,8 +54,10 @@ EncodedMesh encodeMesh(const MeshPoints& points, const MeshCells& cells, const C
 /// allocated on the way. Throws Error(Corrupt, Unsupported, LimitExceeded).
 ///
 /// `surface` is called with bytes of memory, for the faces that are known from the points on; null
-/// if there can be none.
+/// if there can be none. `working` is called from time to time with how many cells are done; it may
+/// throw to stop.
 MeshCells decodeMesh(const MeshPoints& points, ByteView payload, std::uint64_t maxBytes,
-                     const std::function<Cells(std::uint64_t)>& surface = nullptr);
+                     const std::function<Cells(std::uint64_t)>& surface = nullptr,
+                     const std::function<void(std::uint64_t)>& working = nullptr);
 
 }  // namespace bspc::connectivity

@@ -26,9 +26,14 @@ class CornerSplit {
         taken_(mayRenumber ? 0 : welding.points(), 0) {}
 
   /// The points of all corners of the front's faces, face by face; an encoder gives them.
-  void codeFront(const AdvancingFront& front, std::vector<std::uint32_t>& points) {
+  /// `check()` may throw to stop.
+  template <class Check>
+  void codeFront(const AdvancingFront& front, std::vector<std::uint32_t>& points, Check check) {
     if (!Coder::kWriting) points.assign(front.allCorners().size(), 0);
-    for (std::uint32_t face = 0; face < front.faces(); ++face) codeFace(front, face, points);
+    for (std::uint32_t face = 0; face < front.faces(); ++face) {
+      if (face % kCheckEvery == 0) check();
+      codeFace(front, face, points);
+    }
   }
 
   /// The point of a corner of a face that is not the front's.
@@ -52,6 +57,7 @@ class CornerSplit {
 
  private:
   static constexpr std::uint32_t kNoNumber = 0xFFFFFFFF;
+  static constexpr std::uint32_t kCheckEvery = 4096;
   enum Edge : unsigned { kUnknown, kSame, kDifferent, kStates };
 
   void codeFace(const AdvancingFront& front, std::uint32_t face,

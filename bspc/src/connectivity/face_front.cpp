@@ -47,12 +47,13 @@ void FaceFront::place(Span<const std::uint32_t> face, std::vector<Edge>& opened)
   for (std::size_t i = 0; i < face.size(); ++i) {
     const Edge edge{face[i], face[i + 1 < face.size() ? i + 1 : 0]};
     ++valence_[edge.from];
-    const bool wasOpen = isOpen(edge);
-    halfEdges_.put(edge.from, edge.to, start + static_cast<std::uint32_t>(i));
-    if (wasOpen) {
-      gates_.close(edge.from, edge.to);
+    const std::uint32_t corner = start + static_cast<std::uint32_t>(i);
+    const std::uint32_t across = cornerAt(edge.to, edge.from);
+    halfEdges_.put(edge.from, edge.to, corner);
+    if (across != kNoVertex) {
+      gates_.close(across);
     } else if (free(edge.to, edge.from)) {
-      gates_.open(edge.to, edge.from);
+      gates_.open(edge.to, edge.from, corner);
       opened.push_back({edge.to, edge.from});
     }
   }
@@ -65,13 +66,14 @@ void FaceFront::place(Span<const std::uint32_t> face, std::vector<Edge>& opened)
 
 void FaceFront::close(Edge edge) {
   halfEdges_.put(edge.from, edge.to, kBorder);
-  gates_.close(edge.from, edge.to);
+  gates_.close(cornerAt(edge.to, edge.from));
   border_[edge.from] |= kBegins;
   border_[edge.to] |= kEnds;
 }
 
 std::size_t FaceFront::bytes() const {
-  return halfEdges_.bytes() + (corners_.capacity() + faceOf_.capacity() + faceEnds_.capacity()) * 4;
+  return halfEdges_.bytes() + gates_.bytes() +
+         (corners_.capacity() + faceOf_.capacity() + faceEnds_.capacity()) * 4;
 }
 
 }  // namespace bspc::connectivity

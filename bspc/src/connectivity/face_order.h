@@ -44,9 +44,11 @@ class FaceOrder {
   }
 
   /// `order`: which of the faces come, one after the other; `starts`: of each of them, which of its
-  /// corners comes first. A decoder fills both.
-  void code(std::vector<std::uint32_t>& order, std::vector<std::uint32_t>& starts) {
+  /// corners comes first. A decoder fills both. `check()` may throw to stop.
+  template <class Check>
+  void code(std::vector<std::uint32_t>& order, std::vector<std::uint32_t>& starts, Check check) {
     for (std::size_t t = 0; t < faces_.size(); ++t) {
+      if (t % kCheckEvery == 0) check();
       const std::uint32_t face = codeFace(Coder::kWriting ? order[t] : 0);
       const std::uint32_t start = codeStart(face, Coder::kWriting ? starts[t] : 0);
       nextFree_[placeOf_[face]] = placeOf_[face] + 1;
@@ -60,6 +62,7 @@ class FaceOrder {
 
  private:
   static constexpr std::uint32_t kNone = 0xFFFFFFFF;
+  static constexpr std::size_t kCheckEvery = 4096;
   static constexpr std::size_t kEdges = 4;  ///< of a face that are looked across
   static constexpr std::size_t kCandidates = 1 + 2 * kEdges;
 

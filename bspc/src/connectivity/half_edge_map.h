@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "hash_multiplier.h"
+
 namespace bspc::connectivity {
 
 /// What stands at each directed edge of a mesh: a hash table with open addressing that grows as
@@ -12,7 +14,7 @@ class HalfEdgeMap {
  public:
   static constexpr std::uint32_t kAbsent = 0xFFFFFFFF;
 
-  HalfEdgeMap() : entries_(kFirst) {}
+  HalfEdgeMap() : entries_(std::size_t{1} << kFirstBits) {}
 
   /// The value put in for `from` → `to`, or kAbsent.
   std::uint32_t find(std::uint32_t from, std::uint32_t to) const {
@@ -36,12 +38,12 @@ class HalfEdgeMap {
     std::uint32_t to = 0;
     std::uint32_t value = kAbsent;
   };
-  static constexpr std::size_t kFirst = 64;
+  static constexpr unsigned kFirstBits = 6;
 
   std::size_t slot(std::uint32_t from, std::uint32_t to) const {
     const std::uint64_t key = (std::uint64_t{from} << 32) | to;
     const std::size_t mask = entries_.size() - 1;
-    std::size_t at = static_cast<std::size_t>((key * 0x9E3779B97F4A7C15ULL) >> 20) & mask;
+    std::size_t at = hashPlace(key, multiplier_, bits_);
     while (entries_[at].value != kAbsent && (entries_[at].from != from || entries_[at].to != to)) {
       at = (at + 1) & mask;
     }
@@ -50,12 +52,15 @@ class HalfEdgeMap {
 
   void grow() {
     std::vector<Entry> old(2 * entries_.size());
+    ++bits_;
     old.swap(entries_);
     for (const Entry& entry : old) {
       if (entry.value != kAbsent) entries_[slot(entry.from, entry.to)] = entry;
     }
   }
 
+  std::uint64_t multiplier_ = hashMultiplier();
+  unsigned bits_ = kFirstBits;
   std::vector<Entry> entries_;
   std::size_t used_ = 0;
 };

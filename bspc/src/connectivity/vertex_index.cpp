@@ -42,6 +42,7 @@ std::uint32_t VertexIndex::build(std::vector<std::uint32_t>& order, std::uint32_
   node.last = last;
   node.parent = parent;
   node.awake = last - first;
+  node.smallest = *std::min_element(order.begin() + first, order.begin() + last);
   node.lower = node.upper = positions_[order[first]];
   for (std::uint32_t i = first; i < last; ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -115,8 +116,10 @@ struct VertexIndex::Search {
     return sum;
   }
 
-  bool tooFar(double distance) const {
-    return found.size() == count && distance > found.back().distance;
+  /// Whether no vertex of a node at that distance can be one of the nearest. Of those as far as the
+  /// last one found, however many lie in one place, only smaller numbers can.
+  bool tooFar(const Node& node, double distance) const {
+    return found.size() == count && !nearer({distance, node.smallest}, found.back());
   }
 
   void visitLeaf(const Node& node) {
@@ -143,14 +146,17 @@ struct VertexIndex::Search {
   // Recursion is bounded by the depth of the tree.
   void visit(std::uint32_t id, double distance) {
     const Node& node = index.nodes_[id];
-    if ((!all && node.awake == 0) || tooFar(distance)) return;
+    if ((!all && node.awake == 0) || tooFar(node, distance)) return;
     if (node.left == 0) {
       visitLeaf(node);
       return;
     }
     const double left = distanceOf(index.nodes_[node.left]);
     const double right = distanceOf(index.nodes_[node.right]);
-    if (left <= right) {
+    const bool leftFirst =
+        left != right ? left < right
+                      : index.nodes_[node.left].smallest < index.nodes_[node.right].smallest;
+    if (leftFirst) {
       visit(node.left, left);
       visit(node.right, right);
     } else {

@@ -43,6 +43,7 @@ class VertexIndex {
     std::uint32_t right = 0;
     std::uint32_t parent = 0;
     std::uint32_t awake = 0;
+    std::uint32_t smallest = 0;  ///< number of a vertex
   };
   struct Search;
 

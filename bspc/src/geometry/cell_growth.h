@@ -7,9 +7,11 @@
 namespace bspc::geometry {
 
 /// Makes room in `cells` for `more` of them, after telling `points.cellsInMemory()` what there will
-/// be with `others`, the bytes of all other cells. It may throw.
+/// be with `others`, the bytes of all other cells. It may throw, as may `points.working()`, which
+/// is called each time.
 template <class Points, class Cell>
 void makeRoom(Points& points, std::vector<Cell>& cells, std::size_t more, std::uint64_t others) {
+  points.working();
   if (cells.capacity() - cells.size() >= more) return;
   constexpr std::size_t kFirst = 64;
   const std::size_t capacity = std::max({2 * cells.capacity(), cells.size() + more, kFirst});

@@ -30,10 +30,15 @@ class CellOutput {
   /// Says how much memory cells take from now on; throws Error(LimitExceeded) if that is more than
   /// the call may have.
   void hold(std::uint64_t bytes) { budget_.hold(out_, bytes); }
+  /// To be called for each cell that is divided before there are points.
+  void working() {
+    if (++cells_ % kProgressCells == 0 && progress_) progress_(out_.points.size());
+  }
 
  private:
   /// Points between two calls of the progress callback.
-  static constexpr std::uint64_t kProgressStep = 1U << 16;
+  static constexpr std::uint64_t kProgressStep = 1U << 14;
+  static constexpr std::uint64_t kProgressCells = 1U << 12;
 
   void append(const GridPoint& point, std::uint64_t count, std::uint64_t id) {
     out_.points.push_back(point);
@@ -48,6 +53,7 @@ class CellOutput {
   OutputBudget budget_;
   bool ownCells_;  ///< ids are asked of the last layer
   std::uint64_t leaves_ = 0;
+  std::uint64_t cells_ = 0;
 };
 
 /// Cells that a coarse layer is to have: a quarter of the next finer one's, the last being the

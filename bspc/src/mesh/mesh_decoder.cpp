@@ -40,8 +40,9 @@ void append(const Cells& from, std::uint64_t first, Cells& to) {
 
 class Reader {
  public:
-  Reader(const container::ContainerReader& file, std::uint64_t memory, DecodedPoints& points)
-      : file_(file), memory_(memory), points_(points) {}
+  Reader(const container::ContainerReader& file, std::uint64_t memory,
+         const std::function<void(double)>& working, DecodedPoints& points)
+      : file_(file), memory_(memory), working_(working), points_(points) {}
 
   void read() {
     if (points_.points.size() > kMostNumbers) {
@@ -79,9 +80,11 @@ class Reader {
     const Span<const GridPoint> own =
         Span<const GridPoint>(points_.points)
             .subspan(static_cast<std::size_t>(firstPoint_), static_cast<std::size_t>(count));
-    const MeshCells cells =
-        connectivity::decodeMesh({own, stepsOf(file_.head().grid)}, block.cells, memoryLeft(),
-                                 [&](std::uint64_t memory) { return facesOfTile(block, memory); });
+    const MeshCells cells = connectivity::decodeMesh(
+        {own, stepsOf(file_.head().grid)}, block.cells, memoryLeft(),
+        [&](std::uint64_t memory) { return facesOfTile(block, memory); },
+        [&](std::uint64_t done) { report(done); });
+    done_ += cells.vertices.size() + cells.lines.size() + cells.faces.size();
     if (cells.vertices.size() != block.counts.vertices ||
         cells.lines.size() != block.counts.lines || cells.faces.size() != block.counts.faces) {
       throw Error(ErrorCode::Corrupt, "a block of cells has others than it says");
@@ -106,7 +109,16 @@ class Reader {
     }
     const std::size_t column =
         file_.layout().column(file_.head().layers - 1, container::kGeometryPart);
-    return geometry::facesOfSurface(file_.chunk(tile, column), file_.tiles()[tile].points, memory);
+    return geometry::facesOfSurface(file_.chunk(tile, column), file_.tiles()[tile].points, memory,
+                                    [&] { report(0); });
+  }
+
+  /// `more` cells are done of the block at hand.
+  void report(std::uint64_t more) const {
+    const container::CellCounts& all = file_.head().mesh.counts;
+    const double cells = static_cast<double>(all.vertices) + static_cast<double>(all.lines) +
+                         static_cast<double>(all.faces);
+    working_(cells > 0 ? static_cast<double>(done_ + more) / cells : 1);
   }
 
   std::uint64_t memoryLeft() const {
@@ -136,6 +148,7 @@ class Reader {
     cellsOf_.push_back({cells.vertices.size(), cells.lines.size(), cells.faces.size()});
     for (std::size_t a = 0; a < arrays_.size(); ++a) {
       const ArrayDescription& description = file_.head().mesh.arrays[a];
+      report(0);
       attributes::ArrayValues values;
       const attributes::ArrayShape shape{description.type, description.components,
                                          description.semantic};
@@ -181,7 +194,9 @@ class Reader {
 
   const container::ContainerReader& file_;
   std::uint64_t memory_;
+  const std::function<void(double)>& working_;
   DecodedPoints& points_;
+  std::uint64_t done_ = 0;  ///< cells of the blocks before
   std::uint64_t nextTile_ = 0;
   std::uint64_t firstPoint_ = 0;
   std::uint64_t arrayBytes_ = 0;
@@ -192,8 +207,8 @@ class Reader {
 }  // namespace
 
 void decodeMesh(const container::ContainerReader& file, std::uint64_t memory,
-                DecodedPoints& points) {
-  Reader(file, memory, points).read();
+                const std::function<void(double)>& working, DecodedPoints& points) {
+  Reader(file, memory, working, points).read();
 }
 
 }  // namespace bspc

@@ -29,6 +29,7 @@ class BspSortedPoints {
 
   void emit(const GridPoint& point, std::uint64_t count, const BspCell& cell);
   static void cellsInMemory(std::uint64_t /*bytes*/) {}
+  static void working() {}
 
   /// Greatest distance along an axis of the points of the cells to the middles of their boxes.
   std::uint32_t spread(const std::vector<BspCell>& cells) const;
@@ -76,6 +77,7 @@ class BspCollectedPoints {
     output_.leaf(point, count, cell.id);
   }
   void cellsInMemory(std::uint64_t bytes) { output_.hold(bytes); }
+  void working() { output_.working(); }
   CellOutput& output() { return output_; }
 
  private:

@@ -27,6 +27,8 @@ namespace bspc::geometry {
 ///   void lost()                                              a box has missed a point
 ///   void emit(const GridPoint&, std::uint64_t count, const BspCell&)
 ///   void cellsInMemory(std::uint64_t bytes)                  throws if they are too many
+///   void working()                                           for each cell of a coarse layer;
+///   throws to stop
 template <class Coder, class Points>
 class BspTreeCoder {
  public:

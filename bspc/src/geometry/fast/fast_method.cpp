@@ -199,7 +199,7 @@ DecodedTile FastMethod::decode(const TileToDecode& tile, const PointProgress& pr
     if (points == 0) {
       if (!payload.empty()) throw Error(ErrorCode::Corrupt, "a layer without points has bytes");
     } else if (inputOrder) {
-      fast::readInInputOrder(payload, strides, layer, header.frame.extent, tile, inOrder);
+      fast::readInInputOrder(payload, strides, layer, header.frame.extent, tile, progress, inOrder);
     } else {
       fast::decodeSet(payload, points, tile, collector);
     }

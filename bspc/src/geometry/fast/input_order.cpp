@@ -35,7 +35,8 @@ Bytes writeInInputOrder(const RankedPoints& ranked, const LayerStrides& strides,
 
 void readInInputOrder(ByteView payload, const LayerStrides& strides, unsigned layer,
                       const GridPoint& extent, const TileToDecode& limits,
-                      std::vector<GridPoint>& points) {
+                      const PointProgress& progress, std::vector<GridPoint>& points) {
+  constexpr std::uint64_t kProgressStep = 1U << 16;
   const auto coder = std::make_unique<Reading>(extent);
   const OutputBudget budget(limits);
   entropy::SymbolReader symbols(payload);
@@ -52,6 +53,7 @@ void readInInputOrder(ByteView payload, const LayerStrides& strides, unsigned la
       coder->pass(p);
     }
     budget.beforeAppend(grown);
+    if (progress && i % kProgressStep == 0) progress(i);
     grown.points.push_back(p);
   }
   symbols.finish();

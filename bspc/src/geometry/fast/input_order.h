@@ -15,7 +15,7 @@ Bytes writeInInputOrder(const RankedPoints& ranked, const LayerStrides& strides,
 /// this one and them.
 void readInInputOrder(ByteView payload, const LayerStrides& strides, unsigned layer,
                       const GridPoint& extent, const TileToDecode& limits,
-                      std::vector<GridPoint>& points);
+                      const PointProgress& progress, std::vector<GridPoint>& points);
 
 /// Bits a point that the input's order promises, by a sample of consecutive ones.
 double estimateInInputOrder(const RankedPoints& ranked);

@@ -117,7 +117,7 @@ void decodeSet(ByteView payload, std::uint64_t points, const TileToDecode& limit
   tile.maxPoints = limits.maxPoints;
   tile.maxBytes = limits.maxBytes / 2;  // the result is copied
   tile.maxDepth = limits.maxDepth;
-  const DecodedTile decoded = KdMethod().decode(tile, {});
+  const DecodedTile decoded = KdMethod().decode(tile, out.progress());
   out.append(decoded.points.data(), decoded.points.size());
 }
 

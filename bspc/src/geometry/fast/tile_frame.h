@@ -70,6 +70,7 @@ class PointCollector {
 
   const TileFrame& frame() const { return frame_; }
   const OutputBudget& budget() const { return budget_; }
+  const PointProgress& progress() const { return progress_; }
 
  private:
   static constexpr std::size_t kProgressStep = std::size_t{1} << 16;

@@ -48,6 +48,7 @@ class SortedPoints {
     decoded_.insert(decoded_.end(), static_cast<std::size_t>(cell.count), middle);
   }
   static void cellsInMemory(std::uint64_t /*bytes*/) {}
+  static void working() {}
   std::vector<GridPoint> takeDecoded() { return std::move(decoded_); }
 
  private:
@@ -75,6 +76,7 @@ class CollectedPoints {
     output_.leaf(point, cell.count, cell.id);
   }
   void cellsInMemory(std::uint64_t bytes) { output_.hold(bytes); }
+  void working() { output_.working(); }
   CellOutput& output() { return output_; }
 
  private:

@@ -32,6 +32,8 @@ struct KdCell {
 ///   void emit(const GridPoint&, std::uint64_t count, const KdCell&)
 ///   void emitUndivided(const GridPoint&, const KdCell&)       a cell that a lossy coding stops at
 ///   void cellsInMemory(std::uint64_t bytes)                   throws if they are too many
+///   void working()                                            for each cell of a coarse layer;
+///   throws to stop
 /// On the decoder's side the first two return anything; on the encoder's emit() may do nothing.
 template <class Coder, class Points>
 class KdTreeCoder {

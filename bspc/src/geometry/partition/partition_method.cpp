@@ -36,6 +36,7 @@ class SortedPoints {
     if (progress_) progress_(done);
   }
   static void cellsInMemory(std::uint64_t /*bytes*/) {}
+  static void working() {}
 
  private:
   const TileInput& tile_;
@@ -59,6 +60,7 @@ class CollectedPoints {
     output_.leaf(point, count, cell.id);
   }
   void cellsInMemory(std::uint64_t bytes) { output_.hold(bytes); }
+  void working() { output_.working(); }
   CellOutput& output() { return output_; }
 
  private:

@@ -25,6 +25,8 @@ namespace bspc::geometry {
 ///   GridPoint at(std::uint64_t j)                            the j-th leaf point
 ///   void emit(const GridPoint&, std::uint64_t count, const PartitionCell&)
 ///   void cellsInMemory(std::uint64_t bytes)                  throws if they are too many
+///   void working()                                           for each cell of a coarse layer;
+///   throws to stop
 template <class Coder, class Points, class Symbols>
 class PartitionTreeCoder {
  public:

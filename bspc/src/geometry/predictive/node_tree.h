@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "entropy/lanes.h"
+#include "hash_multiplier.h"
 
 namespace bspc::geometry::predictive {
 inline namespace BSPC_LANE_SET {
@@ -79,11 +80,11 @@ class NodeTree {
   };
   static constexpr std::size_t kFirstSlots = 1024;
 
-  static std::uint64_t hash(unsigned open, const std::array<std::uint32_t, 3>& cell) {
-    std::uint64_t h = cell[0] * 0x9E3779B97F4A7C15U;
+  std::uint64_t hash(unsigned open, const std::array<std::uint32_t, 3>& cell) const {
+    std::uint64_t h = cell[0] * multiplier_;
     h = (h ^ (h >> 32)) + cell[1] * 0xC2B2AE3D27D4EB4FU;
     h = (h ^ (h >> 29)) + cell[2] * 0x165667B19E3779F9U + open;
-    h *= 0x9E3779B97F4A7C15U;
+    h *= multiplier_;
     return h ^ (h >> 32);
   }
   std::size_t start(std::uint64_t h) const { return (h >> 20) & (slots_.size() - 1); }
@@ -100,6 +101,7 @@ class NodeTree {
     for (std::uint32_t i = 0; i < size(); ++i) insert(nodes_[i], i);
   }
 
+  std::uint64_t multiplier_ = hashMultiplier();
   std::vector<Node> nodes_;
   std::vector<Slot> slots_;
 };

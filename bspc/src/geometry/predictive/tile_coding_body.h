@@ -20,8 +20,9 @@
 namespace bspc::geometry::predictive {
 inline namespace BSPC_LANE_SET {
 
-/// Calls of working() between two of the progress callback: some tens of milliseconds.
-constexpr unsigned kProgressStep = 1024;
+/// Calls of working(), each after a cell of some tens of points, between two of the progress
+/// callback: some tens of milliseconds.
+constexpr unsigned kProgressStep = 32;
 
 /// Input indices in the order of the tree's leaves: x, y and z are halved in turn.
 inline std::vector<std::uint32_t> mortonOrder(Span<const GridPoint> points,
@@ -98,7 +99,7 @@ class SortedPoints {
 class CollectedPoints {
  public:
   CollectedPoints(const TileToDecode& tile, const PointProgress& progress, DecodedTile& out)
-      : progress_(progress), out_(out), output_(tile, kNoProgress, out) {}
+      : progress_(progress), out_(out), output_(tile, progress, out) {}
 
   static std::uint32_t countUpper(std::uint32_t /*first*/, std::uint32_t /*count*/,
                                   unsigned /*axis*/, std::uint32_t /*value*/) {
@@ -134,8 +135,6 @@ class CollectedPoints {
   CellOutput& output() { return output_; }
 
  private:
-  inline static const PointProgress kNoProgress;
-
   const PointProgress& progress_;
   DecodedTile& out_;
   CellOutput output_;

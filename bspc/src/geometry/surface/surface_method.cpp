@@ -141,13 +141,17 @@ DecodedTile SurfaceMethod::decode(const TileToDecode& tile, const PointProgress&
     return result;
   }
   entropy::SymbolReader coder(tile.payloads.back());
-  const SurfaceFaces faces =
-      connectivity::decodeSurface(coder, static_cast<std::uint32_t>(tile.points),
-                                  [&](std::uint64_t bytes) { output.hold(bytes); });
+  const SurfaceFaces faces = connectivity::decodeSurface(
+      coder, static_cast<std::uint32_t>(tile.points), [&](std::uint64_t bytes) {
+        output.hold(bytes);
+        if (progress) progress(0);
+      });
   output.hold(bytesFor(faces) + std::uint64_t{faces.vertices} * sizeof(GridPoint));
   std::vector<GridPoint> vertices(faces.vertices);
   std::uint64_t next = 0;
+  std::uint64_t done = 0;
   const auto put = [&](std::uint64_t i, const GridPoint& place) {
+    if (++done % kProgressStep == 0 && progress) progress(done);
     if (i < faces.vertices) {
       vertices[static_cast<std::size_t>(i)] = place;
       if (++next < faces.vertices) return;
@@ -162,13 +166,15 @@ DecodedTile SurfaceMethod::decode(const TileToDecode& tile, const PointProgress&
   return result;
 }
 
-Cells facesOfSurface(ByteView payload, std::uint64_t points, std::uint64_t maxBytes) {
+Cells facesOfSurface(ByteView payload, std::uint64_t points, std::uint64_t maxBytes,
+                     const std::function<void()>& working) {
   if (points > kMostPoints) {
     throw Error(ErrorCode::Corrupt, "a mesh of more than 2^32 points cannot have cells");
   }
   entropy::SymbolReader coder(payload);
   return connectivity::decodeSurface(coder, static_cast<std::uint32_t>(points),
                                      [&](std::uint64_t bytes) {
+                                       if (working) working();
                                        if (bytes <= maxBytes) return;
                                        throw Error(ErrorCode::LimitExceeded,
                                                    "decoding the cells needs more memory than the "

@@ -17,7 +17,9 @@ class SurfaceMethod : public GeometryMethod {
 };
 
 /// The faces in the payload of a tile's last layer, over its points as they are decoded. Throws
-/// Error(Corrupt, LimitExceeded); any bytes are safe.
-Cells facesOfSurface(ByteView payload, std::uint64_t points, std::uint64_t maxBytes);
+/// Error(Corrupt, LimitExceeded); any bytes are safe. `working` is called from time to time; it may
+/// throw to stop.
+Cells facesOfSurface(ByteView payload, std::uint64_t points, std::uint64_t maxBytes,
+                     const std::function<void()>& working = nullptr);
 
 }  // namespace bspc::geometry
