@@ -31,6 +31,20 @@ constexpr unsigned kRegisterBytes = 16;
 #endif
 constexpr unsigned kRegisters = 32 / kRegisterBytes;
 
+/// For each set of lanes their numbers in front, in ascending order.
+constexpr std::array<std::array<std::uint8_t, kLanes>, 1U << kLanes> packingOrders() {
+  std::array<std::array<std::uint8_t, kLanes>, 1U << kLanes> orders{};
+  for (unsigned bits = 0; bits < orders.size(); ++bits) {
+    unsigned count = 0;
+    for (unsigned lane = 0; lane < kLanes; ++lane) {
+      if ((bits >> lane & 1) != 0) orders[bits][count++] = static_cast<std::uint8_t>(lane);
+    }
+  }
+  return orders;
+}
+
+inline constexpr auto kPackingOrders = packingOrders();
+
 using FloatRegister = float __attribute__((vector_size(kRegisterBytes)));
 using IntRegister = std::int32_t __attribute__((vector_size(kRegisterBytes)));
 
@@ -210,6 +224,43 @@ BSPC_LANES_INLINE std::uint32_t maskBits(const IntLanes& mask) {
   return bits;
 #endif
 }
+
+/// Which lanes of several vectors to keep, side by side: those whose bits are set.
+class Packing {
+ public:
+  BSPC_LANES_INLINE explicit Packing(std::uint32_t bits)
+      : count_(static_cast<unsigned>(__builtin_popcount(bits))) {
+#if defined(BSPC_LANES_AVX2)
+    std::int64_t order = 0;
+    std::memcpy(&order, lane_detail::kPackingOrders[bits & 0xFF].data(), sizeof order);
+    order_ = _mm256_cvtepi8_epi32(_mm_cvtsi64_si128(order));
+#else
+    order_ = lane_detail::kPackingOrders[bits & 0xFF];
+#endif
+  }
+
+  unsigned count() const { return count_; }
+
+  /// Stores the lanes that are kept; eight entries from `to` on are written whatever count() is.
+  BSPC_LANES_INLINE void store(float* to, const Lanes& v) const {
+#if defined(BSPC_LANES_AVX2)
+    __m256 values;
+    std::memcpy(&values, v.part, sizeof values);
+    _mm256_storeu_ps(to, _mm256_permutevar8x32_ps(values, order_));
+#else
+    const std::array<float, kLanes> values = valuesOf(v);
+    for (unsigned i = 0; i < kLanes; ++i) to[i] = values[order_[i]];
+#endif
+  }
+
+ private:
+  unsigned count_;
+#if defined(BSPC_LANES_AVX2)
+  __m256i order_;
+#else
+  std::array<std::uint8_t, kLanes> order_;
+#endif
+};
 
 }  // namespace BSPC_LANE_SET
 }  // namespace bspc::entropy

@@ -69,47 +69,74 @@ class Candidates {
   };
   struct Group {
     unsigned count = 0;
-    alignas(32) float place[3][kMostInBox];
-    alignas(32) float weight[kMostInBox];
+    alignas(32) float place[3][kMostInBox + entropy::kLanes];
+    alignas(32) float weight[kMostInBox + entropy::kLanes];
     std::array<Kernel, kScales> kernel;
-    void add(float x, float y, float z, float w) {
-      if (count >= kMostInBox) return;
-      weight[count] = w;
-      place[0][count] = x;
-      place[1][count] = y;
-      place[2][count] = z;
-      ++count;
+    void grow(unsigned more) { count = std::min(count + more, kMostInBox); }
+  };
+  /// Candidates of the cell, of one kind where kinds are separate.
+  struct List {
+    unsigned count = 0;
+    alignas(32) float x[kMostInCell + entropy::kLanes];
+    alignas(32) float y[kMostInCell + entropy::kLanes];
+    alignas(32) float z[kMostInCell + entropy::kLanes];
+    alignas(32) float weight[kMostInCell + entropy::kLanes];
+  };
+  /// What one near point makes with the others, before it is known whether it may stay.
+  struct Proposals {
+    /// Two of each pair and two of each triple with the point; whole lanes behind.
+    static constexpr unsigned kMost = NearPoints::kMost * NearPoints::kMost + 4 * entropy::kLanes;
+    unsigned count = 0;
+    alignas(32) float x[kMost];
+    alignas(32) float y[kMost];
+    alignas(32) float z[kMost];
+    alignas(32) float square[kMost];  ///< of the pair's length, or of both sides together
+
+    BSPC_LANES_INLINE void add(std::uint32_t chosen, const Lanes& px, const Lanes& py,
+                               const Lanes& pz, const Lanes& squares) {
+      const entropy::Packing packing(chosen);
+      packing.store(x + count, px);
+      packing.store(y + count, py);
+      packing.store(z + count, pz);
+      packing.store(square + count, squares);
+      count += packing.count();
     }
   };
 
   /// Those that were moved onto the surface count at the greater width alone.
   unsigned scalesOf(unsigned kind) const { return kind == kProjected ? 1 : scales_; }
-  /// `square`: of the pair's length, or of the parallelogram's sides together.
-  void propose(const NearPoints& near, Kind kind, float x, float y, float z, float square);
-  void extrapolate(const NearPoints& near, const Vector3& a, const Vector3& b, float square);
   void proposeAround(const NearPoints& near, unsigned t);
+  void extrapolate(const NearPoints& near, unsigned t, std::uint32_t pairs);
+  void bend(const NearPoints& near);
+  void span(const NearPoints& near, unsigned t, std::uint32_t pairs);
+  void listProposed(Kind kind);
+  void addInner(const NearPoints& near, unsigned t);
+  List& listOf(Kind kind) {
+    return list_[features_.has(Features::kSeparateKinds) ? kind : kExtrapolated];
+  }
   BSPC_LANES_INLINE std::uint32_t inCell(const Lanes& x, const Lanes& y, const Lanes& z) const {
     return entropy::maskBits((entropy::magnitude(x - middle_) <= reach_) &
                              (entropy::magnitude(y - middle_) <= reach_) &
                              (entropy::magnitude(z - middle_) <= reach_));
   }
   void dropNear(float px, float py, float pz);
-  void project(const Surface& surface, float spacing, Group& from);
+  void choose(const Question& q, float margin, const List& from, Group& to);
+  void project(const Surface& surface, float spacing, const Group& from);
   void spread(const Question& q, unsigned kind);
 
   Features features_;
   unsigned scales_;
   float middle_ = 0;         ///< of the cell, on each axis
   float reach_ = 0;          ///< candidates lie within so much of it
+  float innerReach_ = 0;     ///< and known points that are close to one within so much
   float pairSquare_ = 0;     ///< pairs lie closer
   float minimumSquare_ = 0;  ///< candidates and known points do not
   float inverseSquare_ = 1;  ///< of the spacing in the cell
-  unsigned listed_ = 0;
-  alignas(32) float x_[kMostInCell + entropy::kLanes];
-  alignas(32) float y_[kMostInCell + entropy::kLanes];
-  alignas(32) float z_[kMostInCell + entropy::kLanes];
-  std::array<float, kMostInCell> weight_{};
-  std::array<std::uint8_t, kMostInCell> kind_{};
+  std::array<List, kProjected> list_;
+  Proposals proposed_;
+  Proposals before_;  ///< where a row would have begun that goes on to a proposed place
+  unsigned inners_ = 0;
+  std::array<Vector3, NearPoints::kMost> inner_{};  ///< near points that may be close to candidates
   std::array<std::uint32_t, NearPoints::kMost> pairs_{};  ///< bit j of i: i and j are a pair
   std::array<Group, kKinds> group_{};
 };

@@ -13,158 +13,195 @@ inline void forEachBit(std::uint32_t bits, Visit visit) {
   for (; bits != 0; bits &= bits - 1) visit(static_cast<unsigned>(__builtin_ctz(bits)));
 }
 
-inline float squareBetween(const NearPoints& near, unsigned a, unsigned b) {
-  const float dx = near.x[a] - near.x[b];
-  const float dy = near.y[a] - near.y[b];
-  const float dz = near.z[a] - near.z[b];
-  return dx * dx + dy * dy + dz * dz;
+/// Bits of the lanes from `i` on that are among the first `count`.
+constexpr std::uint32_t lanesBefore(unsigned count, unsigned i) {
+  return count - i < entropy::kLanes ? (1U << (count - i)) - 1 : 0xFF;
 }
 
 inline void Candidates::startCell(NearPoints& near, float side, float spacing) {
   middle_ = 0.5F * side;
   reach_ = middle_ + 0.3F * spacing;
+  innerReach_ = middle_ + 0.65F * spacing;  // 0.6, and what rounding may take
   pairSquare_ = static_cast<float>(features_.pairReach) * spacing * spacing;
   minimumSquare_ = 0.09F * spacing * spacing;
   inverseSquare_ = 1 / (spacing * spacing);
-  listed_ = 0;
+  for (List& list : list_) list.count = 0;
+  inners_ = 0;
+  for (unsigned t = 0; t < near.count; ++t) addInner(near, t);
   for (unsigned t = 0; t < near.count; ++t) proposeAround(near, t);
 }
 
 inline void Candidates::addPoint(const NearPoints& near) {
   const unsigned t = near.count - 1;
   dropNear(near.x[t], near.y[t], near.z[t]);
+  addInner(near, t);
   proposeAround(near, t);
 }
 
+inline void Candidates::addInner(const NearPoints& near, unsigned t) {
+  inner_[inners_] = {near.x[t], near.y[t], near.z[t]};
+  const bool isInner = entropy::magnitude(near.x[t] - middle_) <= innerReach_ &&
+                       entropy::magnitude(near.y[t] - middle_) <= innerReach_ &&
+                       entropy::magnitude(near.z[t] - middle_) <= innerReach_;
+  inners_ += isInner ? 1 : 0;
+}
+
 inline void Candidates::dropNear(float px, float py, float pz) {
-  unsigned kept = 0;
-  for (unsigned i = 0; i < listed_; i += entropy::kLanes) {
-    const Lanes dx = entropy::load(x_ + i) - px;
-    const Lanes dy = entropy::load(y_ + i) - py;
-    const Lanes dz = entropy::load(z_ + i) - pz;
-    std::uint32_t far = entropy::maskBits(dx * dx + dy * dy + dz * dz >= minimumSquare_);
-    if (listed_ - i < entropy::kLanes) far &= (1U << (listed_ - i)) - 1;
-    if (kept == i && far == 0xFF) {
-      kept += entropy::kLanes;
-      continue;
+  for (List& list : list_) {
+    unsigned kept = 0;
+    for (unsigned i = 0; i < list.count; i += entropy::kLanes) {
+      const Lanes x = entropy::load(list.x + i);
+      const Lanes y = entropy::load(list.y + i);
+      const Lanes z = entropy::load(list.z + i);
+      const Lanes weight = entropy::load(list.weight + i);
+      const Lanes dx = x - px;
+      const Lanes dy = y - py;
+      const Lanes dz = z - pz;
+      const entropy::Packing far(
+          entropy::maskBits(dx * dx + dy * dy + dz * dz >= minimumSquare_) &
+          lanesBefore(list.count, i));
+      far.store(list.x + kept, x);
+      far.store(list.y + kept, y);
+      far.store(list.z + kept, z);
+      far.store(list.weight + kept, weight);
+      kept += far.count();
     }
-    forEachBit(far, [&](unsigned lane) {
-      const unsigned j = i + lane;
-      x_[kept] = x_[j];
-      y_[kept] = y_[j];
-      z_[kept] = z_[j];
-      weight_[kept] = weight_[j];
-      kind_[kept] = kind_[j];
-      ++kept;
-    });
+    list.count = kept;
   }
-  listed_ = kept;
-}
-
-inline void Candidates::propose(const NearPoints& near, Kind kind, float x, float y, float z,
-                                float square) {
-  if (listed_ >= kMostInCell) return;
-  entropy::IntLanes close = {};
-  for (unsigned i = 0; i < entropy::wholeLanes(near.count); i += entropy::kLanes) {
-    const Lanes dx = entropy::load(near.x + i) - x;
-    const Lanes dy = entropy::load(near.y + i) - y;
-    const Lanes dz = entropy::load(near.z + i) - z;
-    close |= dx * dx + dy * dy + dz * dz < minimumSquare_;
-  }
-  if (entropy::maskBits(close) != 0) return;
-  x_[listed_] = x;
-  y_[listed_] = y;
-  z_[listed_] = z;
-  const float drop = kind == kExtrapolated ? 20.0F : 1.2F;  // per square spacing
-  weight_[listed_] = 1 / (1 + drop * (square * inverseSquare_));
-  kind_[listed_] = static_cast<std::uint8_t>(kind);
-  ++listed_;
-}
-
-/// 2a − b, for a pair whose square length is `square`.
-inline void Candidates::extrapolate(const NearPoints& near, const Vector3& a, const Vector3& b,
-                                    float square) {
-  Vector3 candidate{2 * a[0] - b[0], 2 * a[1] - b[1], 2 * a[2] - b[2]};
-  if (features_.has(Features::kChains)) {
-    constexpr float kClose = 0.15F;  // to where the row would have begun, of the pair's square
-    constexpr float kBend = 0.5F;
-    const Vector3 before{2 * b[0] - a[0], 2 * b[1] - a[1], 2 * b[2] - a[2]};
-    const NearPoints::Nearest c = near.nearestTo(before[0], before[1], before[2]);
-    if (c.square < kClose * square) {
-      candidate[0] += kBend * (near.x[c.index] - before[0]);
-      candidate[1] += kBend * (near.y[c.index] - before[1]);
-      candidate[2] += kBend * (near.z[c.index] - before[2]);
-      square = 0.5F * square;  // three that agree are worth more
-    }
-  }
-  propose(near, kExtrapolated, candidate[0], candidate[1], candidate[2], square);
 }
 
 /// What the near point t makes with those before it.
 inline void Candidates::proposeAround(const NearPoints& near, unsigned t) {
+  std::uint32_t pairs = 0;
+  for (unsigned i = 0; i < entropy::wholeLanes(t + 1); i += entropy::kLanes) {
+    const Lanes dx = entropy::load(near.x + i) - near.x[t];
+    const Lanes dy = entropy::load(near.y + i) - near.y[t];
+    const Lanes dz = entropy::load(near.z + i) - near.z[t];
+    pairs |= entropy::maskBits(dx * dx + dy * dy + dz * dz < pairSquare_) << i;
+  }
+  pairs &= (1U << t) - 1;
+  pairs_[t] = pairs;
+  forEachBit(pairs, [&](unsigned j) { pairs_[j] |= 1U << t; });
+  extrapolate(near, t, pairs);
+  listProposed(kExtrapolated);
+  if (!features_.has(Features::kParallelograms)) return;
+  span(near, t, pairs);
+  listProposed(kParallelogram);
+}
+
+/// 2a − b for a pair of t, both ways.
+inline void Candidates::extrapolate(const NearPoints& near, unsigned t, std::uint32_t pairs) {
+  const bool chains = features_.has(Features::kChains);
+  proposed_.count = before_.count = 0;
+  for (unsigned i = 0; i < entropy::wholeLanes(t + 1); i += entropy::kLanes) {
+    const std::uint32_t here = (pairs >> i) & 0xFF;
+    if (here == 0) continue;
+    const Lanes x = entropy::load(near.x + i);
+    const Lanes y = entropy::load(near.y + i);
+    const Lanes z = entropy::load(near.z + i);
+    const Lanes dx = near.x[t] - x;
+    const Lanes dy = near.y[t] - y;
+    const Lanes dz = near.z[t] - z;
+    const Lanes square = dx * dx + dy * dy + dz * dz;
+    const Lanes onX = 2 * near.x[t] - x;
+    const Lanes onY = 2 * near.y[t] - y;
+    const Lanes onZ = 2 * near.z[t] - z;
+    const Lanes backX = 2 * x - near.x[t];
+    const Lanes backY = 2 * y - near.y[t];
+    const Lanes backZ = 2 * z - near.z[t];
+    const std::uint32_t on = here & inCell(onX, onY, onZ);
+    const std::uint32_t back = here & inCell(backX, backY, backZ);
+    proposed_.add(on, onX, onY, onZ, square);
+    proposed_.add(back, backX, backY, backZ, square);
+    if (!chains) continue;
+    before_.add(on, backX, backY, backZ, square);
+    before_.add(back, onX, onY, onZ, square);
+  }
+  if (chains) bend(near);
+}
+
+/// Rows of three that bend go on as they bend, half as much; three that agree are worth more.
+inline void Candidates::bend(const NearPoints& near) {
+  constexpr float kClose = 0.15F;  // to where the row would have begun, of the pair's square
+  constexpr float kBend = 0.5F;
+  for (unsigned i = 0; i < proposed_.count; ++i) {
+    const NearPoints::Nearest c = near.nearestTo(before_.x[i], before_.y[i], before_.z[i]);
+    if (c.square >= kClose * proposed_.square[i]) continue;
+    proposed_.x[i] += kBend * (near.x[c.index] - before_.x[i]);
+    proposed_.y[i] += kBend * (near.y[c.index] - before_.y[i]);
+    proposed_.z[i] += kBend * (near.z[c.index] - before_.z[i]);
+    proposed_.square[i] *= 0.5F;
+  }
+}
+
+/// t + j − k for pairs j, k; then j + k − t for pairs of t.
+inline void Candidates::span(const NearPoints& near, unsigned t, std::uint32_t pairs) {
   const float x = near.x[t];
   const float y = near.y[t];
   const float z = near.z[t];
-  const auto groups = entropy::wholeLanes(t + 1);
   const std::uint32_t before = (1U << t) - 1;
-  std::uint32_t pairs = 0;
-  for (unsigned i = 0; i < groups; i += entropy::kLanes) {
-    const Lanes dx = entropy::load(near.x + i) - x;
-    const Lanes dy = entropy::load(near.y + i) - y;
-    const Lanes dz = entropy::load(near.z + i) - z;
-    pairs |= entropy::maskBits(dx * dx + dy * dy + dz * dz < pairSquare_) << i;
-  }
-  pairs &= before;
-  pairs_[t] = pairs;
-  forEachBit(pairs, [&](unsigned j) { pairs_[j] |= 1U << t; });
-
-  for (unsigned i = 0; i < groups; i += entropy::kLanes) {
-    const std::uint32_t here = (pairs >> i) & 0xFF;
-    if (here == 0) continue;
-    const Lanes px = entropy::load(near.x + i);
-    const Lanes py = entropy::load(near.y + i);
-    const Lanes pz = entropy::load(near.z + i);
-    forEachBit(here & inCell(2 * x - px, 2 * y - py, 2 * z - pz), [&](unsigned lane) {
-      const unsigned j = i + lane;
-      extrapolate(near, {x, y, z}, {near.x[j], near.y[j], near.z[j]}, squareBetween(near, t, j));
-    });
-    forEachBit(here & inCell(2 * px - x, 2 * py - y, 2 * pz - z), [&](unsigned lane) {
-      const unsigned j = i + lane;
-      extrapolate(near, {near.x[j], near.y[j], near.z[j]}, {x, y, z}, squareBetween(near, t, j));
-    });
-  }
-  if (!features_.has(Features::kParallelograms)) return;
+  proposed_.count = 0;
   forEachBit(pairs, [&](unsigned k) {
     const float dx = x - near.x[k];
     const float dy = y - near.y[k];
     const float dz = z - near.z[k];
     const float side = dx * dx + dy * dy + dz * dz;
-    // t + j − k for pairs j, k; then j + k − t for pairs of t.
     const std::uint32_t toK = pairs_[k] & before;
     const std::uint32_t toT = pairs & ((1U << k) - 1);
-    for (unsigned i = 0; i < groups; i += entropy::kLanes) {
+    for (unsigned i = 0; i < entropy::wholeLanes(t + 1); i += entropy::kLanes) {
       const std::uint32_t moved = (toK >> i) & 0xFF;
       const std::uint32_t spanned = (toT >> i) & 0xFF;
       if ((moved | spanned) == 0) continue;
       const Lanes px = entropy::load(near.x + i);
       const Lanes py = entropy::load(near.y + i);
       const Lanes pz = entropy::load(near.z + i);
-      if (moved != 0) {
-        forEachBit(moved & inCell(px + dx, py + dy, pz + dz), [&](unsigned lane) {
-          const unsigned j = i + lane;
-          propose(near, kParallelogram, near.x[j] + dx, near.y[j] + dy, near.z[j] + dz,
-                  side + squareBetween(near, j, k));
-        });
-      }
-      if (spanned != 0) {
-        forEachBit(spanned & inCell(px - dx, py - dy, pz - dz), [&](unsigned lane) {
-          const unsigned j = i + lane;
-          propose(near, kParallelogram, near.x[j] - dx, near.y[j] - dy, near.z[j] - dz,
-                  side + squareBetween(near, j, t));
-        });
-      }
+      const auto squareTo = [&](unsigned other) {
+        const Lanes ex = px - near.x[other];
+        const Lanes ey = py - near.y[other];
+        const Lanes ez = pz - near.z[other];
+        return side + (ex * ex + ey * ey + ez * ez);
+      };
+      const Lanes onX = px + dx;
+      const Lanes onY = py + dy;
+      const Lanes onZ = pz + dz;
+      proposed_.add(moved & inCell(onX, onY, onZ), onX, onY, onZ, squareTo(k));
+      if (spanned == 0) continue;
+      const Lanes backX = px - dx;
+      const Lanes backY = py - dy;
+      const Lanes backZ = pz - dz;
+      proposed_.add(spanned & inCell(backX, backY, backZ), backX, backY, backZ, squareTo(t));
     }
   });
+}
+
+/// Those of the proposed places that are not close to a known point.
+inline void Candidates::listProposed(Kind kind) {
+  const float drop = kind == kExtrapolated ? 20.0F : 1.2F;  // per square spacing
+  List& list = listOf(kind);
+  unsigned room = kMostInCell;
+  for (const List& other : list_) room -= other.count;
+  for (unsigned i = 0; i < proposed_.count; i += entropy::kLanes) {
+    const Lanes x = entropy::load(proposed_.x + i);
+    const Lanes y = entropy::load(proposed_.y + i);
+    const Lanes z = entropy::load(proposed_.z + i);
+    entropy::IntLanes close = {};
+    for (unsigned j = 0; j < inners_; ++j) {
+      const Lanes dx = x - inner_[j][0];
+      const Lanes dy = y - inner_[j][1];
+      const Lanes dz = z - inner_[j][2];
+      close |= dx * dx + dy * dy + dz * dz < minimumSquare_;
+    }
+    const Lanes weight =
+        1.0F / (1.0F + drop * (entropy::load(proposed_.square + i) * inverseSquare_));
+    const entropy::Packing far(~entropy::maskBits(close) & lanesBefore(proposed_.count, i));
+    far.store(list.x + list.count, x);
+    far.store(list.y + list.count, y);
+    far.store(list.z + list.count, z);
+    far.store(list.weight + list.count, weight);
+    const unsigned more = std::min(far.count(), room);
+    list.count += more;
+    room -= more;
+  }
 }
 
 inline void Candidates::startBox(const Question& q, float spacing, float error,
@@ -182,31 +219,38 @@ inline void Candidates::startBox(const Question& q, float spacing, float error,
   if (scales_ == 2) {
     group_[kProjected].kernel[0].inverseWidth = group_[kProjected].kernel[1].inverseWidth;
   }
-  const float margin = 0.3F * spacing;
-  const float hx = 0.5F * q.size[0] + margin;
-  const float hy = 0.5F * q.size[1] + margin;
-  const float hz = 0.5F * q.size[2] + margin;
-  const bool separate = features_.has(Features::kSeparateKinds);
-  for (unsigned i = 0; i < listed_; i += entropy::kLanes) {
-    std::uint32_t inBox =
-        entropy::maskBits((entropy::magnitude(entropy::load(x_ + i) - q.centre(0)) <= hx) &
-                          (entropy::magnitude(entropy::load(y_ + i) - q.centre(1)) <= hy) &
-                          (entropy::magnitude(entropy::load(z_ + i) - q.centre(2)) <= hz));
-    if (listed_ - i < entropy::kLanes) inBox &= (1U << (listed_ - i)) - 1;
-    forEachBit(inBox, [&](unsigned lane) {
-      const unsigned j = i + lane;
-      group_[separate ? kind_[j] : unsigned{kExtrapolated}].add(x_[j], y_[j], z_[j], weight_[j]);
-    });
-  }
-  if (features_.has(Features::kProjection) && surface.quadric.valid) {
-    project(surface, spacing, group_[kExtrapolated]);
-    if (separate) project(surface, spacing, group_[kParallelogram]);
+  for (const Kind kind : {kExtrapolated, kParallelogram}) {
+    choose(q, 0.3F * spacing, list_[kind], group_[kind]);
+    if (features_.has(Features::kProjection) && surface.quadric.valid) {
+      project(surface, spacing, group_[kind]);
+    }
   }
   for (unsigned kind = 0; kind < kKinds; ++kind) spread(q, kind);
 }
 
+/// Those in or near the question's box.
+inline void Candidates::choose(const Question& q, float margin, const List& from, Group& to) {
+  const float hx = 0.5F * q.size[0] + margin;
+  const float hy = 0.5F * q.size[1] + margin;
+  const float hz = 0.5F * q.size[2] + margin;
+  for (unsigned i = 0; i < from.count; i += entropy::kLanes) {
+    const Lanes x = entropy::load(from.x + i);
+    const Lanes y = entropy::load(from.y + i);
+    const Lanes z = entropy::load(from.z + i);
+    const entropy::Packing inBox(entropy::maskBits((entropy::magnitude(x - q.centre(0)) <= hx) &
+                                                   (entropy::magnitude(y - q.centre(1)) <= hy) &
+                                                   (entropy::magnitude(z - q.centre(2)) <= hz)) &
+                                 lanesBefore(from.count, i));
+    inBox.store(to.place[0] + to.count, x);
+    inBox.store(to.place[1] + to.count, y);
+    inBox.store(to.place[2] + to.count, z);
+    inBox.store(to.weight + to.count, entropy::load(from.weight + i));
+    to.grow(inBox.count());
+  }
+}
+
 /// Candidates moved onto the quadric along its normal, if they are near it.
-inline void Candidates::project(const Surface& surface, float spacing, Group& from) {
+inline void Candidates::project(const Surface& surface, float spacing, const Group& from) {
   const Quadric& s = surface.quadric;
   Group& to = group_[kProjected];
   for (unsigned i = 0; i < from.count; i += entropy::kLanes) {
@@ -225,13 +269,11 @@ inline void Candidates::project(const Surface& surface, float spacing, Group& fr
     x -= height * s.normal[0];
     y -= height * s.normal[1];
     z -= height * s.normal[2];
-    const unsigned lanes = std::min<unsigned>(entropy::kLanes, from.count - i);
-    const auto xs = entropy::valuesOf(x);
-    const auto ys = entropy::valuesOf(y);
-    const auto zs = entropy::valuesOf(z);
-    for (unsigned lane = 0; lane < lanes; ++lane) {
-      to.add(xs[lane], ys[lane], zs[lane], from.weight[i + lane]);
-    }
+    entropy::store(to.place[0] + to.count, x);
+    entropy::store(to.place[1] + to.count, y);
+    entropy::store(to.place[2] + to.count, z);
+    entropy::store(to.weight + to.count, entropy::load(from.weight + i));
+    to.grow(std::min<unsigned>(entropy::kLanes, from.count - i));
   }
 }
 
