@@ -31,7 +31,8 @@ inline float floatOf(std::uint32_t bits) {
 
 /// `x` kept within [low, high]; `low` if it is not a number.
 constexpr float clamped(float x, float low, float high) {
-  return x > low ? (x < high ? x : high) : low;
+  const float least = x > low ? x : low;
+  return least < high ? least : high;
 }
 
 BSPC_LANES_INLINE Lanes clamped(const Lanes& x, float low, float high) {
@@ -67,7 +68,9 @@ BSPC_LANES_INLINE Lanes naturalLog(const Lanes& x) {
 /// 2^x for −100 ≤ x ≤ 100, that of the nearer end beyond.
 inline float exp2(float x) {
   x = clamped(x, -100, 100);
-  const int whole = static_cast<int>(x < 0 ? x - 1 : x);
+  // 1 below 0; by a mask, as no processor foresees the sign.
+  const float below = floatOf(0x3F800000U & (0U - static_cast<std::uint32_t>(x < 0)));
+  const int whole = static_cast<int>(x - below);
   const float f = x - static_cast<float>(whole);
   const float p =
       1 + f * (0.693147F + f * (0.240227F + f * (0.0555041F + f * (0.0096181F + f * 0.0013333F))));

@@ -61,8 +61,23 @@ class AxisValues {
     return std::clamp(wished, kLeast, kMost);
   }
 
+  static constexpr unsigned kMany = 60;
+  static constexpr std::array<std::uint8_t, kMany + 1> countClasses() {
+    std::array<std::uint8_t, kMany + 1> classes{};
+    for (unsigned n = 0; n <= kMany; ++n) {
+      classes[n] = static_cast<std::uint8_t>(n < 3    ? n
+                                             : n < 5  ? 3
+                                             : n < 9  ? 4
+                                             : n < 20 ? 5
+                                             : n < 60 ? 6
+                                                      : 7);
+    }
+    return classes;
+  }
+  /// From a table: branches on it would be foreseen badly.
   static unsigned countClass(unsigned n) {
-    return n < 3 ? n : n < 5 ? 3 : n < 9 ? 4 : n < 20 ? 5 : n < 60 ? 6 : 7;
+    static constexpr auto kCountClasses = countClasses();
+    return kCountClasses[std::min(n, kMany)];
   }
 
   std::size_t slot(unsigned open, std::uint32_t index) const {

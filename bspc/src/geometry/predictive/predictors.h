@@ -102,12 +102,7 @@ struct Predictors {
   }
 
   void ask(const Question& q) {
-    quadricEvidence = surface.quadric.evidence(q, surfaceError);
-    if (features.has(Features::kNarrowQuadric)) {
-      narrowQuadricEvidence = surface.quadric.evidence(q, 0.4F * surfaceError);
-    }
-    const bool wantPlane = !inCell || features.has(Features::kPlane) || !surface.quadric.valid;
-    planeEvidence = wantPlane ? surface.plane.evidence(q) : 0;
+    askSurface(q);
     if (inCell) {
       candidates.ask(q);
       coordinates.ask(q, points, spacing, features.has(Features::kWideCoordinates),
@@ -135,6 +130,19 @@ struct Predictors {
   }
 
  private:
+  void askSurface(const Question& q) {
+    HalvesLogits logits;
+    for (const Spread& spread : surface.quadric.spreadsIn(q, surfaceError, 0.4F * surfaceError)) {
+      logits.add(spread);
+    }
+    const bool wantPlane = !inCell || features.has(Features::kPlane) || !surface.quadric.valid;
+    if (wantPlane) logits.add(surface.plane.spreadIn(q));
+    const std::array<float, entropy::kLanes> values = logits.values();
+    quadricEvidence = values[0];
+    narrowQuadricEvidence = values[1];
+    planeEvidence = values[2];
+  }
+
   void askPhase(const Question& q) {
     const PhaseHistogram& histogram = phases[q.axis];
     phaseSpeaks = q.open <= histogram.maxLevel();

@@ -19,14 +19,39 @@ inline Vector3 cross(const Vector3& a, const Vector3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// ln of the odds that a quantity lies in the upper half of ± half around 0, when it is spread
-/// around `middle` with a scale of 1 / inverseScale.
-inline float halvesLogit(float middle, float inverseScale, float half) {
-  const float at = entropy::bell(-middle * inverseScale);
-  const float low = entropy::bell((-half - middle) * inverseScale);
-  const float high = entropy::bell((half - middle) * inverseScale);
-  return entropy::naturalLog((high - at + 1e-5F) / (at - low + 1e-5F));
-}
+/// A quantity that lies within ± half of 0 is spread around `middle` with a scale of
+/// 1 / inverseScale. The default knows nothing.
+struct Spread {
+  float middle = 0;
+  float inverseScale = 0;
+  float half = 0;
+};
+
+/// ln of the odds that each of up to eight quantities lies in the upper half; 0 of the default.
+class HalvesLogits {
+ public:
+  void add(const Spread& spread) {
+    middle_[count_] = spread.middle;
+    inverseScale_[count_] = spread.inverseScale;
+    half_[count_++] = spread.half;
+  }
+  std::array<float, entropy::kLanes> values() const {
+    using entropy::Lanes;
+    const Lanes middle = entropy::load(middle_.data());
+    const Lanes inverseScale = entropy::load(inverseScale_.data());
+    const Lanes half = entropy::load(half_.data());
+    const Lanes at = entropy::bell((0.0F - middle) * inverseScale);
+    const Lanes low = entropy::bell((0.0F - half - middle) * inverseScale);
+    const Lanes high = entropy::bell((half - middle) * inverseScale);
+    return entropy::valuesOf(entropy::naturalLog((high - at + 1e-5F) / (at - low + 1e-5F)));
+  }
+
+ private:
+  unsigned count_ = 0;
+  alignas(32) std::array<float, entropy::kLanes> middle_{};
+  alignas(32) std::array<float, entropy::kLanes> inverseScale_{};
+  alignas(32) std::array<float, entropy::kLanes> half_{};
+};
 
 /// Weighted least-squares plane through a neighbourhood (principal component analysis).
 struct Plane {
@@ -35,7 +60,8 @@ struct Plane {
   Vector3 through{};   ///< grid steps
   float variance = 0;  ///< of distances to it, square grid steps
 
-  float evidence(const Question& q) const;
+  /// Where along the question's axis the plane is, from the middle of the box.
+  Spread spreadIn(const Question& q) const;
 };
 
 /// Height above a plane as a quadratic function of the place in it, in units of the spacing.
@@ -55,8 +81,9 @@ struct Quadric {
   Value at(float x, float y, float z) const;
   float heightAt(float x, float y, float z) const { return at(x, y, z).height; }
 
-  /// `error`: the scale of what heights are wrong by, in units.
-  float evidence(const Question& q, float error) const;
+  /// As of a plane, and once more as if heights were less wrong. `error`: the scale of what they
+  /// are wrong by, in units.
+  std::array<Spread, 2> spreadsIn(const Question& q, float error, float narrowError) const;
 };
 
 /// Predictor: the surface that the neighbourhood lies on.

@@ -41,18 +41,18 @@ inline Vector3 leastDirection(const Symmetric3& covariance, float trace) {
   return {m[2], m[4], m[5]};
 }
 
-inline float Plane::evidence(const Question& q) const {
-  if (!valid) return 0;
+inline Spread Plane::spreadIn(const Question& q) const {
+  if (!valid) return {};
   const float along = normal[q.axis];
-  if (along * along < 1e-4F) return 0;
+  if (along * along < 1e-4F) return {};
   float distance = 0;
   float spread = variance;
   for (unsigned k = 0; k < 3; ++k) {
     distance += normal[k] * (q.centre(k) - through[k]);
     if (k != q.axis) spread += normal[k] * normal[k] * q.size[k] * q.size[k] * (1 / 12.0F);
   }
-  return halvesLogit(-distance / along, entropy::magnitude(along) / std::sqrt(spread),
-                     0.5F * q.size[q.axis]);
+  return {-distance / along, entropy::magnitude(along) / std::sqrt(spread),
+          0.5F * q.size[q.axis]};
 }
 
 inline Quadric::Value Quadric::at(float x, float y, float z) const {
@@ -71,19 +71,23 @@ inline Quadric::Value Quadric::at(float x, float y, float z) const {
   return value;
 }
 
-inline float Quadric::evidence(const Question& q, float error) const {
-  if (!valid) return 0;
+inline std::array<Spread, 2> Quadric::spreadsIn(const Question& q, float error,
+                                                float narrowError) const {
+  if (!valid) return {};
   const Value middle = at(q.centre(0), q.centre(1), q.centre(2));
   const float along = middle.gradient[q.axis];
   const float steepness = entropy::magnitude(along);
-  if (!(steepness >= 0.02F)) return 0;
+  if (!(steepness >= 0.02F)) return {};
   const unsigned k1 = q.axis == 0 ? 1 : 0;
   const unsigned k2 = q.axis == 2 ? 1 : 2;
   const float across1 = middle.gradient[k1] * q.size[k1] * inverseSpacing;
   const float across2 = middle.gradient[k2] * q.size[k2] * inverseSpacing;
-  const float variance = error * error + (across1 * across1 + across2 * across2) * (1 / 12.0F);
-  return halvesLogit(-middle.height / along, steepness / std::sqrt(variance),
-                     0.5F * q.size[q.axis] * inverseSpacing);
+  const float tilt = (across1 * across1 + across2 * across2) * (1 / 12.0F);
+  const Spread wide{-middle.height / along, steepness / std::sqrt(error * error + tilt),
+                    0.5F * q.size[q.axis] * inverseSpacing};
+  Spread narrow = wide;
+  narrow.inverseScale = steepness / std::sqrt(narrowError * narrowError + tilt);
+  return {wide, narrow};
 }
 
 inline void Surface::fit(const Neighbourhood& near, const Vector3& centre, float spacing,
