@@ -19,8 +19,8 @@ EFFORTS = {
     5: (_LOWEST, 6, 8, 0),
     6: (_LOWEST, 10, 9, 1),
     7: (_SEVENTH, 13, 14, 1),
-    8: (set(FLAGS), 14, 36, 1),
-    9: (set(FLAGS), 16, 49, 2),
+    8: (set(FLAGS), 16, 36, 1),
+    9: (set(FLAGS), 20, 64, 2),
 }
 OWN = 15
 

@@ -54,7 +54,7 @@ class Kernel:
 class Group:
     """Candidates of a kind for a box."""
 
-    MOST = 128
+    MOST = 512
 
     def __init__(self, scales: list[float]):
         self.place = [row(), row(), row()]
@@ -112,7 +112,7 @@ def square_between(a: Vector, b: Vector) -> float:
 
 
 class Candidates:
-    MOST = 640
+    MOST = 2048
 
     def __init__(self, flags: set[str], pair_reach: int):
         self.flags, self.pair_reach = flags, pair_reach
@@ -127,7 +127,7 @@ class Candidates:
         self.middle = real(0.5 * side)
         self.reach = real(self.middle + real(real(0.3) * spacing))
         self.pair_square = real(real(float(self.pair_reach) * spacing) * spacing)
-        self.minimum = real(real(real(0.09) * spacing) * spacing)
+        self.minimum = real(real(real(0.22) * spacing) * spacing)
         self.inverse_square = real(1.0 / real(spacing * spacing))
         self.listed, self.pairs = [], {}
         for t in range(len(near.known)):
@@ -148,7 +148,7 @@ class Candidates:
         distances = squares(shifted(near.x, -at[0]), shifted(near.y, -at[1]), shifted(near.z, -at[2]))
         if any(d < self.minimum for d in distances):
             return
-        drop = 20.0 if kind == EXTRAPOLATED else real(1.2)
+        drop = 8.0 if kind == EXTRAPOLATED else real(1.8)
         weight = real(1.0 / real(1.0 + real(drop * real(square * self.inverse_square))))
         self.listed.append((at, weight, kind))
 
@@ -201,7 +201,7 @@ class Candidates:
             scales = [real(1.0 / real(real(0.25 * width) + real(0.4)))]
         else:
             scales = [
-                real(1.0 / real(real(real(0.12) * width) + real(0.38))),
+                real(1.0 / real(real(real(0.12) * width) + 0.5)),
                 real(1.0 / real(width + 0.5)),
             ]
         self.groups = [Group(scales), Group(scales), Group(scales[-1:])]

@@ -166,7 +166,7 @@ class DecisionModel:
         self.flags, self.layered = flags, "two layers" in flags
         self.counters = Counters()
         if self.layered:
-            self.side_mixer = LayeredMixer(0.09, (0.04, 200.0, 0.007), 0.003)
+            self.side_mixer = LayeredMixer(0.12, (0.04, 400.0, 0.007), 0.003)
             self.more_mixer = LayeredMixer(0.2, (0.05, 200.0, 0.005), 0.003)
         else:
             self.side_mixer, self.more_mixer = (PlainMixer(0.12, self.USUAL) for _ in range(2))
@@ -196,7 +196,8 @@ class DecisionModel:
         return low
 
     def _side(self, coder: RangeDecoder, z: int, s: Situation, q: Question, p: Scene) -> int:
-        flags, e = self.flags, Evidence(self.counters)
+        flags = self.flags
+        e = Evidence(self.counters, 120 if self.layered else GREATEST_AGE)
         e.add(1.0)
         e.add(p.surface_evidence())
         for flag, value in (("narrow quadric", p.narrow_quadric), ("plane", p.plane_evidence)):

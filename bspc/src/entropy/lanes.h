@@ -70,6 +70,11 @@ struct IntLanes {
   BSPC_LANES_OPERATOR(+)
   BSPC_LANES_OPERATOR(-)
 #undef BSPC_LANES_OPERATOR
+  BSPC_LANES_INLINE friend IntLanes operator<(const IntLanes& a, const IntLanes& b) {
+    IntLanes r;
+    for (unsigned i = 0; i < lane_detail::kRegisters; ++i) r.part[i] = a.part[i] < b.part[i];
+    return r;
+  }
   BSPC_LANES_INLINE friend IntLanes operator~(const IntLanes& a) {
     IntLanes r;
     for (unsigned i = 0; i < lane_detail::kRegisters; ++i) r.part[i] = ~a.part[i];
@@ -135,6 +140,22 @@ BSPC_LANES_INLINE Lanes load(const float* from) {
 
 BSPC_LANES_INLINE void store(float* to, const Lanes& v) { std::memcpy(to, v.part, sizeof v.part); }
 
+BSPC_LANES_INLINE void store(std::int32_t* to, const IntLanes& v) {
+  std::memcpy(to, v.part, sizeof v.part);
+}
+
+/// first, first + 1, …, first + 7
+BSPC_LANES_INLINE IntLanes laneNumbers(unsigned first) {
+  IntLanes numbers;
+  for (unsigned i = 0; i < lane_detail::kRegisters; ++i) {
+    for (unsigned j = 0; j < kLanes / lane_detail::kRegisters; ++j) {
+      numbers.part[i][j] =
+          static_cast<std::int32_t>(first + i * (kLanes / lane_detail::kRegisters) + j);
+    }
+  }
+  return numbers;
+}
+
 BSPC_LANES_INLINE std::array<float, kLanes> valuesOf(const Lanes& v) {
   std::array<float, kLanes> values{};
   store(values.data(), v);
@@ -194,6 +215,36 @@ BSPC_LANES_INLINE float sum(const Lanes& v) {
   std::memcpy(half, v.part, sizeof half);
   const Half pairs = half[0] + half[1];
   return (pairs[0] + pairs[2]) + (pairs[1] + pairs[3]);
+}
+
+/// Lane i is the sum over vector i, added up in the order of sum().
+BSPC_LANES_INLINE Lanes sums(const std::array<Lanes, kLanes>& vectors) {
+  using Half = float __attribute__((vector_size(16)));
+#if defined(__clang__)
+#define BSPC_LANES_SHUFFLE(a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
+#else
+  using Order = std::int32_t __attribute__((vector_size(16)));
+#define BSPC_LANES_SHUFFLE(a, b, ...) __builtin_shuffle(a, b, Order{__VA_ARGS__})
+#endif
+  Half fours[2];
+  for (unsigned i = 0; i < 2; ++i) {
+    Half pairs[4];
+    for (unsigned j = 0; j < 4; ++j) {
+      Half half[2];
+      std::memcpy(half, vectors[4 * i + j].part, sizeof half);
+      pairs[j] = half[0] + half[1];
+    }
+    for (unsigned j = 0; j < 4; j += 2) {
+      pairs[j] = BSPC_LANES_SHUFFLE(pairs[j], pairs[j + 1], 0, 1, 4, 5) +
+                 BSPC_LANES_SHUFFLE(pairs[j], pairs[j + 1], 2, 3, 6, 7);
+    }
+    fours[i] = BSPC_LANES_SHUFFLE(pairs[0], pairs[2], 0, 2, 4, 6) +
+               BSPC_LANES_SHUFFLE(pairs[0], pairs[2], 1, 3, 5, 7);
+  }
+#undef BSPC_LANES_SHUFFLE
+  Lanes result;
+  std::memcpy(result.part, fours, sizeof fours);
+  return result;
 }
 
 BSPC_LANES_INLINE float least(const Lanes& v) {

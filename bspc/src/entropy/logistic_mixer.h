@@ -176,16 +176,13 @@ class LayeredMixer {
             const FinalSelection& finalSets) {
     const unsigned count = evidence.pad();
     std::array<float*, kSets> weights{};
-    alignas(32) std::array<float, kLanes> dots{};
-    for (unsigned i = 0; i < kSets; ++i) {
-      weights[i] = sets_[i].weights(selected[selectorOf(i)]);
-      Lanes dot = Lanes(0);
-      for (unsigned j = 0; j < count; j += kLanes) {
-        dot += load(weights[i] + j) * load(evidence.inputs() + j);
-      }
-      dots[i] = sum(dot);
+    for (unsigned i = 0; i < kSets; ++i) weights[i] = sets_[i].weights(selected[selectorOf(i)]);
+    std::array<Lanes, kLanes> dots{};
+    for (unsigned j = 0; j < count; j += kLanes) {
+      const Lanes input = load(evidence.inputs() + j);
+      for (unsigned i = 0; i < kSets; ++i) dots[i] += load(weights[i] + j) * input;
     }
-    const Lanes logits = clamped(load(dots.data()), -11, 11);
+    const Lanes logits = clamped(sums(dots), -11, 11);
     std::array<float*, Finals> final{};
     alignas(32) std::array<float, kLanes> mixed{};  // the mean after the mixtures
     for (unsigned f = 0; f < Finals; ++f) {
@@ -204,10 +201,10 @@ class LayeredMixer {
       store(final[f], load(final[f]) + step * logits);
     }
     const std::array<float, kLanes> steps = valuesOf(ratesOf(selected) * (target - squash(logits)));
-    for (unsigned i = 0; i < kSets; ++i) {
-      const Lanes step = Lanes(steps[i]);
-      for (unsigned j = 0; j < count; j += kLanes) {
-        store(weights[i] + j, load(weights[i] + j) + step * load(evidence.inputs() + j));
+    for (unsigned j = 0; j < count; j += kLanes) {
+      const Lanes input = load(evidence.inputs() + j);
+      for (unsigned i = 0; i < kSets; ++i) {
+        store(weights[i] + j, load(weights[i] + j) + Lanes(steps[i]) * input);
       }
     }
     evidence.learn(bit, counterAge_);

@@ -16,7 +16,7 @@ inline namespace BSPC_LANE_SET {
 
 /// Predictor: points of meshes and scans continue the pattern of those around them. Pairs and
 /// triples of near points say where: 2a − b, and a + b − c. If a row of three
-/// bends, 2a − b bends on with it, half as much. Those that would come closer than 0.3
+/// bends, 2a − b bends on with it, half as much. Those that would come closer than 0.47
 /// spacings to a known point are left out. The longer the pairs, the less a candidate counts.
 class Candidates {
  public:
@@ -57,8 +57,8 @@ class Candidates {
 
  private:
   using Lanes = entropy::Lanes;
-  static constexpr unsigned kMostInCell = 640;
-  static constexpr unsigned kMostInBox = 128;
+  static constexpr unsigned kMostInCell = 2048;
+  static constexpr unsigned kMostInBox = 512;
 
   struct Kernel {
     float inverseWidth = 1;

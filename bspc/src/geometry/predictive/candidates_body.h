@@ -21,9 +21,9 @@ constexpr std::uint32_t lanesBefore(unsigned count, unsigned i) {
 inline void Candidates::startCell(NearPoints& near, float side, float spacing) {
   middle_ = 0.5F * side;
   reach_ = middle_ + 0.3F * spacing;
-  innerReach_ = middle_ + 0.65F * spacing;  // 0.6, and what rounding may take
+  innerReach_ = middle_ + 0.8F * spacing;  // 0.77, and what rounding may take
   pairSquare_ = static_cast<float>(features_.pairReach) * spacing * spacing;
-  minimumSquare_ = 0.09F * spacing * spacing;
+  minimumSquare_ = 0.22F * spacing * spacing;
   inverseSquare_ = 1 / (spacing * spacing);
   for (List& list : list_) list.count = 0;
   inners_ = 0;
@@ -57,9 +57,8 @@ inline void Candidates::dropNear(float px, float py, float pz) {
       const Lanes dx = x - px;
       const Lanes dy = y - py;
       const Lanes dz = z - pz;
-      const entropy::Packing far(
-          entropy::maskBits(dx * dx + dy * dy + dz * dz >= minimumSquare_) &
-          lanesBefore(list.count, i));
+      const entropy::Packing far(entropy::maskBits(dx * dx + dy * dy + dz * dz >= minimumSquare_) &
+                                 lanesBefore(list.count, i));
       far.store(list.x + kept, x);
       far.store(list.y + kept, y);
       far.store(list.z + kept, z);
@@ -176,7 +175,7 @@ inline void Candidates::span(const NearPoints& near, unsigned t, std::uint32_t p
 
 /// Those of the proposed places that are not close to a known point.
 inline void Candidates::listProposed(Kind kind) {
-  const float drop = kind == kExtrapolated ? 20.0F : 1.2F;  // per square spacing
+  const float drop = kind == kExtrapolated ? 8.0F : 1.8F;  // per square spacing
   List& list = listOf(kind);
   unsigned room = kMostInCell;
   for (const List& other : list_) room -= other.count;
@@ -212,7 +211,7 @@ inline void Candidates::startBox(const Question& q, float spacing, float error,
     if (scales_ == 1) {
       group.kernel[0].inverseWidth = 1 / (0.25F * width + 0.4F);
     } else {
-      group.kernel[0].inverseWidth = 1 / (0.12F * width + 0.38F);
+      group.kernel[0].inverseWidth = 1 / (0.12F * width + 0.5F);
       group.kernel[1].inverseWidth = 1 / (width + 0.5F);
     }
   }

@@ -175,10 +175,11 @@ class DecisionModel {
 
   static constexpr unsigned kInputs = 32;
   static constexpr float kWeight = 0.12F;
-  static constexpr float kLayeredWeight = 0.09F;
+  static constexpr float kLayeredWeight = 0.12F;
   static constexpr float kLayeredCountWeight = 0.2F;
   static constexpr entropy::MixingRate kFinalRate{0.015F, 10, 0.003F};
   static constexpr unsigned kCounterAge = 60;
+  static constexpr unsigned kLayeredCounterAge = 120;  ///< of sides
   static constexpr unsigned kSideSets = 2 * kSideKinds * kSizes * 3;
   static constexpr unsigned kSidesPerPhase = kSideKinds * kMasses * kErrors;
 
@@ -199,8 +200,8 @@ class DecisionModel {
       {2 * kSideKinds, 2 * kSideKinds* kErrors * 3},
       kInputs,
       kLayeredWeight,
-      {0.04F, 200, 0.007F},
-      kCounterAge,
+      {0.04F, 400, 0.007F},
+      kLayeredCounterAge,
       kFinalRate};
   entropy::LogisticMixer<2> countMixer_{{2 * kCounts, kCounts}, kInputs, kWeight, {}, kCounterAge};
   entropy::LayeredMixer<4, 2> layeredCountMixer_{

@@ -35,13 +35,13 @@ Features featuresOf(unsigned effort) {
       f.refit = Features::Refit::PerPoint;
       break;
     case 8:
-      f.nearPoints = 14;
+      f.nearPoints = 16;
       f.pairReach = 36;
       f.refit = Features::Refit::PerPoint;
       break;
     default:
-      f.nearPoints = 16;
-      f.pairReach = 49;
+      f.nearPoints = 20;
+      f.pairReach = 64;
       f.refit = Features::Refit::Always;
   }
   return f;

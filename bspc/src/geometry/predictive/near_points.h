@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 
 #include "entropy/logistic_math.h"
@@ -81,17 +83,33 @@ struct NearPoints {
   template <class Visit>
   unsigned visitSix(float px, float py, float pz, Visit visit) const {
     constexpr unsigned kSix = 6;
-    alignas(32) float distance[kMost];
-    for (unsigned i = 0; i < entropy::wholeLanes(count); i += entropy::kLanes) {
+    constexpr unsigned kGroups = kMost / entropy::kLanes;
+    alignas(32) std::int32_t key[kMost];
+    std::array<entropy::IntLanes, kGroups> keys;
+    const unsigned groups = entropy::wholeLanes(count) / unsigned{entropy::kLanes};
+    for (unsigned g = 0; g < groups; ++g) {
+      const unsigned i = g * entropy::kLanes;
       const entropy::Lanes dx = entropy::load(x + i) - px;
       const entropy::Lanes dy = entropy::load(y + i) - py;
       const entropy::Lanes dz = entropy::load(z + i) - pz;
-      entropy::store(distance + i, dx * dx + dy * dy + dz * dz);
+      const entropy::IntLanes bits = entropy::bitsOf(dx * dx + dy * dy + dz * dz);
+      keys[g] = (bits & ~static_cast<std::int32_t>(kIndexMask)) | entropy::laneNumbers(i);
+      entropy::store(key + i, keys[g]);
     }
-    std::uint32_t key[kSix];
-    unsigned found = 0;
-    for (unsigned i = 0; i < count; ++i) insert(key, found, kSix, keyOf(distance[i], i));
-    for (unsigned i = 0; i < found; ++i) visit(known[key[i] & kIndexMask]);
+    // How many are nearer than each: no branch depends on distances.
+    std::array<entropy::IntLanes, kGroups> nearer{};
+    for (unsigned j = 0; j < count; ++j) {
+      for (unsigned g = 0; g < groups; ++g) {
+        nearer[g] = nearer[g] - (entropy::IntLanes(key[j]) < keys[g]);
+      }
+    }
+    alignas(32) std::int32_t rank[kMost];
+    for (unsigned g = 0; g < groups; ++g) entropy::store(rank + g * entropy::kLanes, nearer[g]);
+    std::array<std::uint8_t, kMost + 1> order{};
+    for (unsigned i = 0; i < count; ++i)
+      order[static_cast<unsigned>(rank[i])] = static_cast<std::uint8_t>(i);
+    const unsigned found = std::min(count, kSix);
+    for (unsigned i = 0; i < found; ++i) visit(known[order[i]]);
     return found;
   }
 

@@ -51,8 +51,7 @@ inline Spread Plane::spreadIn(const Question& q) const {
     distance += normal[k] * (q.centre(k) - through[k]);
     if (k != q.axis) spread += normal[k] * normal[k] * q.size[k] * q.size[k] * (1 / 12.0F);
   }
-  return {-distance / along, entropy::magnitude(along) / std::sqrt(spread),
-          0.5F * q.size[q.axis]};
+  return {-distance / along, entropy::magnitude(along) / std::sqrt(spread), 0.5F * q.size[q.axis]};
 }
 
 inline Quadric::Value Quadric::at(float x, float y, float z) const {
