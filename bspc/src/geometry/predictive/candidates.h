@@ -84,8 +84,9 @@ class Candidates {
   };
   /// What one near point makes with the others, before it is known whether it may stay.
   struct Proposals {
-    /// Two of each pair and two of each triple with the point; whole lanes behind.
-    static constexpr unsigned kMost = NearPoints::kMost * NearPoints::kMost + 4 * entropy::kLanes;
+    /// t + j − k of any two others, j + k − t of each two; eight more are written behind.
+    static constexpr std::size_t kMost =
+        std::size_t{NearPoints::kMost} * NearPoints::kMost * 3 / 2 + entropy::kLanes;
     unsigned count = 0;
     alignas(32) float x[kMost];
     alignas(32) float y[kMost];
