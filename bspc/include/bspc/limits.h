@@ -22,7 +22,7 @@ namespace bspc {
 /// ones take hardly any bytes in a file, so a small file may use all that the limits allow.
 ///
 /// The time is bounded by the bytes and by what they claim, not by the bytes alone: up to about
-/// 0.2 µs a point with the methods fast, kd and gencode, 3 with octree, 11 with bsp, 43 with
+/// 0.2 µs a point with the methods fast, kd and gencode, 3 with octree, 13 with bsp, 43 with
 /// predictive and 66 a face with surface; faces coded over known vertices take longer the more
 /// vertices there are. docs/format.md, section 19, says why and how that is measured. Lower
 /// `points`, or stop by the progress callback, which is called often (bspc/progress.h).
