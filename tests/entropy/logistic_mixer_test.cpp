@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "entropy/symbol_coder.h"
 
@@ -61,6 +63,35 @@ TEST(Lanes, DoEachWhatOneNumberDoes) {
   EXPECT_EQ(least(lanes), *std::min_element(all, all + kLanes));
   const std::uint32_t bits = maskBits(lanes > 20.0F);
   for (unsigned i = 0; i < kLanes; ++i) EXPECT_EQ((bits >> i & 1) != 0, values[i] > 20.0F);
+}
+
+TEST(Lanes, ThatAreKeptStandSideBySideWhicheverTheyAre) {
+  const std::array<float, kLanes> numbers{3, 1, 4, 1.5F, 9, 2, 6, 5};
+  for (std::uint32_t bits = 0; bits < 256; ++bits) {
+    std::vector<float> expected;
+    for (unsigned i = 0; i < kLanes; ++i) {
+      if ((bits >> i & 1) != 0) expected.push_back(numbers[i]);
+    }
+    const Packing packing(bits);
+    std::array<float, kLanes> stored{};
+    packing.store(stored.data(), load(numbers.data()));
+    ASSERT_EQ(packing.count(), expected.size()) << bits;
+    const std::vector<float> kept(stored.begin(), stored.begin() + packing.count());
+    EXPECT_EQ(kept, expected) << bits;
+  }
+}
+
+TEST(Lanes, SumsOfEightAreTheSumsOfEach) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> any(-1000, 1000);
+  std::array<Lanes, kLanes> vectors{};
+  for (Lanes& vector : vectors) {
+    std::array<float, kLanes> numbers{};
+    for (float& x : numbers) x = any(random);
+    vector = load(numbers.data());
+  }
+  const std::array<float, kLanes> all = valuesOf(sums(vectors));
+  for (unsigned i = 0; i < kLanes; ++i) EXPECT_EQ(all[i], sum(vectors[i])) << i;
 }
 
 TEST(Counter, LearnsAFrequency) {
