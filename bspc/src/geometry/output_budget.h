@@ -37,7 +37,7 @@ class OutputBudget {
                                                 std::to_string(maxPoints_) +
                                                 "; raise the limit if the file is to be trusted");
     }
-    const std::uint64_t wished = std::max<std::uint64_t>(2 * size, kFirst);
+    const std::uint64_t wished = std::max<std::uint64_t>(2 * out.points.capacity(), kFirst);
     const std::uint64_t capacity = std::max(std::min({wished, claimed_, maxPoints_}), size + more);
     // While it grows, the old and the new array stand side by side.
     checkBytes(size + capacity <= maxBytes_ / bytesPerPoint_

@@ -78,7 +78,7 @@ TEST(SlabFrame, CodesAndPositionsAreInverse) {
     const std::uint64_t code = codeOf(HilbertPlane::instance(), frame, u[0], u[1]);
     ASSERT_EQ(code >> frame.codeBits(), 0U);
     std::uint32_t back[2];
-    positionsOfCodes(HilbertPlane::instance(), frame, &code, 1, &back[0], &back[1]);
+    positionsOfCodes(frame, &code, 1, &back[0], &back[1]);
     ASSERT_EQ(back[0], u[0]);
     ASSERT_EQ(back[1], u[1]);
   }

@@ -116,46 +116,106 @@ TEST(FrequencyTable, RefusesImpossibleWeights) {
   EXPECT_THROW(readWeights(reader), Error);
 }
 
-/// Runs of random lengths over tables that are as skewed as can be.
-class RansStream : public testing::TestWithParam<unsigned> {};
-
-TEST_P(RansStream, RoundTripAndEnd) {
-  std::mt19937_64 random(7);
+/// Tables that are as skewed as can be.
+std::vector<FrequencyTable> skewedTables() {
   SymbolCounts rare{};
   rare[3] = 1;
   rare[100] = 1U << 30;
   SymbolCounts single{};
   single[127] = 1;
-  std::vector<FrequencyTable> tables{FrequencyTable::proportionalTo(skewedCounts(1, kSymbols)),
-                                     FrequencyTable::proportionalTo(rare),
-                                     FrequencyTable::proportionalTo(single),
-                                     FrequencyTable::geometric(32, 1000)};
+  return {FrequencyTable::proportionalTo(skewedCounts(1, kSymbols)),
+          FrequencyTable::proportionalTo(rare), FrequencyTable::proportionalTo(single),
+          FrequencyTable::geometric(32, 1000)};
+}
+
+/// Runs of random lengths over tables.
+struct Runs {
+  std::vector<std::pair<unsigned, Bytes>> runs;  ///< table, symbols
   RansWriter writer;
-  std::vector<std::pair<unsigned, Bytes>> runs;
-  for (unsigned i = 0; i < 3000; ++i) {
-    const auto t = static_cast<unsigned>(random() % tables.size());
-    Bytes run(i % 3 == 0 ? kChunkPoints : random() % (kChunkPoints + 1));
-    for (std::uint8_t& s : run) {
-      do {
-        s = static_cast<std::uint8_t>(random() % kSymbols);
-      } while (tables[t][s] == 0);
+
+  Runs(std::uint64_t seed, const std::vector<FrequencyTable>& tables) {
+    std::mt19937_64 random(seed);
+    for (unsigned i = 0; i < 3000; ++i) {
+      const auto t = static_cast<unsigned>(random() % tables.size());
+      Bytes run(random() % 3 == 0 ? kChunkPoints : random() % (kChunkPoints + 1));
+      for (std::uint8_t& s : run) {
+        do {
+          s = static_cast<std::uint8_t>(random() % kSymbols);
+        } while (tables[t][s] == 0);
+      }
+      std::copy(run.begin(), run.end(), writer.run(t, run.size()));
+      runs.emplace_back(t, run);
     }
-    std::copy(run.begin(), run.end(), writer.run(t, run.size()));
-    runs.emplace_back(t, run);
   }
-  const Bytes bytes = writer.finish(tables, GetParam(), false);
-  EXPECT_EQ(writer.finish(tables, GetParam(), hasVectorRans()), bytes);
+};
+
+unsigned greatestOf(const Bytes& run) {
+  return run.empty() ? 0 : *std::max_element(run.begin(), run.end());
+}
+
+class RansStream : public testing::TestWithParam<unsigned> {};
+
+TEST_P(RansStream, RoundTripAndEnd) {
+  const std::vector<FrequencyTable> tables = skewedTables();
+  const Runs coded(7, tables);
+  const Bytes bytes = coded.writer.finish(tables, GetParam(), false);
+  EXPECT_EQ(coded.writer.finish(tables, GetParam(), hasVectorRans()), bytes);
   const Bytes readable = padded(bytes);
   std::vector<DecodingTable> decoding(tables.begin(), tables.end());
   for (const bool vector : {false, hasVectorRans()}) {
     RansReader reader(readable.data(), bytes.size(), GetParam(), vector);
-    for (const auto& [t, run] : runs) {
+    for (const auto& [t, run] : coded.runs) {
       std::uint8_t symbols[64];
       const unsigned greatest = reader.run(decoding[t], run.size(), symbols);
       ASSERT_EQ(Bytes(symbols, symbols + run.size()), run);
-      ASSERT_EQ(greatest, run.empty() ? 0 : *std::max_element(run.begin(), run.end()));
+      ASSERT_EQ(greatest, greatestOf(run));
     }
     EXPECT_NO_THROW(reader.expectEnd());
+  }
+}
+
+TEST_P(RansStream, TwoStreamsAtOnceGiveTheSame) {
+  const std::vector<FrequencyTable> tables = skewedTables();
+  const Runs codedA(8, tables);
+  const Runs codedB(9, tables);
+  const Bytes bytesA = codedA.writer.finish(tables, GetParam());
+  const Bytes bytesB = codedB.writer.finish(tables, 8);
+  const Bytes readableA = padded(bytesA);
+  const Bytes readableB = padded(bytesB);
+  std::vector<DecodingTable> decoding(tables.begin(), tables.end());
+  for (const bool vector : {false, hasVectorRans()}) {
+    RansReader a(readableA.data(), bytesA.size(), GetParam(), vector);
+    RansReader b(readableB.data(), bytesB.size(), 8, vector);
+    for (std::size_t i = 0; i < codedA.runs.size(); ++i) {
+      const auto& [tableA, symbolsA] = codedA.runs[i];
+      const auto& [tableB, symbolsB] = codedB.runs[i];
+      Bytes backA(64);
+      Bytes backB(64);
+      RansRun runA{decoding[tableA], symbolsA.size(), backA.data()};
+      RansRun runB{decoding[tableB], symbolsB.size(), backB.data()};
+      RansReader::runBoth(a, runA, b, runB);
+      backA.resize(symbolsA.size());
+      backB.resize(symbolsB.size());
+      ASSERT_EQ(backA, symbolsA);
+      ASSERT_EQ(backB, symbolsB);
+      ASSERT_EQ(runA.greatest, greatestOf(symbolsA));
+      ASSERT_EQ(runB.greatest, greatestOf(symbolsB));
+    }
+    EXPECT_NO_THROW(a.expectEnd());
+    EXPECT_NO_THROW(b.expectEnd());
+    if (GetParam() == 8) {
+      RansReader shortened(readableA.data(), bytesA.size() - 20, 8, vector);
+      RansReader whole(readableB.data(), bytesB.size(), 8, vector);
+      const auto readAll = [&] {
+        for (std::size_t i = 0; i < codedA.runs.size(); ++i) {
+          std::uint8_t symbols[2][64];
+          RansRun runA{decoding[codedA.runs[i].first], codedA.runs[i].second.size(), symbols[0]};
+          RansRun runB{decoding[codedB.runs[i].first], codedB.runs[i].second.size(), symbols[1]};
+          RansReader::runBoth(shortened, runA, whole, runB);
+        }
+      };
+      EXPECT_THROW(readAll(), Error);
+    }
   }
 }
 

@@ -10,6 +10,7 @@
 #include "bspc/error.h"
 #include "geometry/fast/fast_method.h"
 #include "geometry/fast/set_coder.h"
+#include "geometry/fast/slab_reader.h"
 #include "geometry/fast/slab_writer.h"
 #include "geometry/kd/kd_method.h"
 #include "support/point_sets.h"
@@ -208,7 +209,7 @@ TEST(Sets, OfSurfacesTakeFarFewerBitsThanTheirCounts) {
 }
 
 TEST(Slabs, AreTheSameBytesWithAndWithoutVectors) {
-  if (!fast::hasAvx2SlabWriter()) GTEST_SKIP() << "this processor has no AVX2";
+  if (!fast::hasAvx2Slabs()) GTEST_SKIP() << "this processor has no AVX2";
   for (const auto& points : {test::scannedSphere(1, 20000, 4095), wideSheet(9000)}) {
     const TileInput tile = tileOf(points, 2, 1);
     const fast::RankedPoints ranked(tile);
@@ -221,6 +222,38 @@ TEST(Slabs, AreTheSameBytesWithAndWithoutVectors) {
       const auto order = fast::writeSlabsPortable(ranked.header().frame, set, options, portable);
       EXPECT_EQ(fast::writeSlabsAvx2(ranked.header().frame, set, options, vectors), order);
       EXPECT_EQ(vectors.take(), portable.take());
+    }
+  }
+}
+
+TEST(Slabs, AreTheSamePointsWithAndWithoutVectors) {
+  if (!fast::hasAvx2Slabs()) GTEST_SKIP() << "this processor has no AVX2";
+  for (const auto& points : {test::scannedSphere(1, 20000, 4095), wideSheet(9000)}) {
+    const TileInput tile = tileOf(points, 2, 1);
+    const fast::RankedPoints ranked(tile);
+    const fast::SetPoints set(ranked);
+    const fast::TileFrame& frame = ranked.header().frame;
+    for (const bool uvTree : {false, true}) {
+      fast::SlabOptions options;
+      options.uvTree = uvTree;
+      container::ByteWriter body;
+      fast::writeSlabs(frame, set, options, body);
+      const Bytes bytes = body.take();
+      const auto decoded = [&](auto readSlabs) {
+        TileToDecode limits;
+        limits.points = points.size();
+        limits.maxPoints = points.size();
+        limits.maxBytes = 1U << 30;
+        limits.maxDepth = 99;
+        const OutputBudget budget(limits);
+        DecodedTile out;
+        fast::PointCollector collector(frame, budget, {}, out);
+        readSlabs(ByteView(bytes), points.size(), uvTree, 0U, limits.maxDepth, collector);
+        return out.points;
+      };
+      const std::vector<GridPoint> portable = decoded(fast::readSlabsPortable);
+      EXPECT_EQ(decoded(fast::readSlabsAvx2), portable);
+      EXPECT_EQ(portable.size(), points.size());
     }
   }
 }

@@ -12,8 +12,9 @@ namespace bspc::geometry::fast {
 /// Widest field that one step writes or reads: with the bits of a begun byte it fits 64 bits.
 constexpr unsigned kMaxFieldBits = 56;
 
-/// What must be readable behind every section, so that steps of fixed size need no care at its end.
-constexpr std::size_t kSectionPadding = 128;
+/// What must be readable behind every section, so that steps of fixed size need no care at its end,
+/// and a chunk's worth of fields is looked at before it is known whether the section has them.
+constexpr std::size_t kSectionPadding = 320;
 
 constexpr std::uint64_t lowBits(unsigned width) { return (std::uint64_t{1} << width) - 1; }
 
@@ -117,7 +118,10 @@ class BitReader {
     return at_ - count;
   }
 
-  /// Bits that were taken before.
+  /// Of the next bit.
+  std::size_t position() const { return at_; }
+
+  /// Bits that were taken before, or that are taken at once.
   std::uint64_t at(std::size_t position, unsigned width) const {
     return (loadLittle64(data_ + (position >> 3)) >> (position & 7)) & lowBits(width);
   }

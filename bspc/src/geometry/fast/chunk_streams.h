@@ -60,8 +60,8 @@ class TableSet {
 std::vector<FrequencyTable> writeTables(BitWriter& bits, const std::vector<SymbolCounts>& counts,
                                         const DefaultTables& defaults);
 
-/// Where chunks are written to. ChunkReader has the same shape, so that one description
-/// (chunk_coder.h) serves both.
+/// Where chunks are written to. ChunkReader (chunk_reader.h) has the same shape, so that one
+/// description (chunk_coder.h) serves both.
 struct ChunkWriter {
   static constexpr bool kWriting = true;
 
@@ -112,71 +112,6 @@ struct ChunkWriter {
       width = shift + code.extraBits(symbol);
       return values[i] - (code.base(symbol) << shift);
     });
-  }
-};
-
-struct ChunkReader {
-  static constexpr bool kWriting = false;
-
-  RansReader gaps;
-  RansReader residuals;
-  RansReader fields;
-  BitReader raw;
-  TableSet gapTables;
-  TableSet residualTables;
-  TableSet fieldTables;
-
-  std::uint64_t field(Field which, std::uint64_t /*value*/) {
-    const unsigned symbol = fields.symbol(fieldTables[which]);
-    const unsigned extra = kFieldCode.extraBits(symbol);
-    return kFieldCode.base(symbol) + (extra > 0 ? raw.get(extra) : 0);
-  }
-  template <class T>
-  void gapValues(unsigned cls, T* values, std::size_t count) {
-    this->values(gaps, gapTables, kGapCode, kGapClasses, cls, values, count);
-  }
-  template <class T>
-  void residualValues(unsigned cls, T* values, std::size_t count) {
-    this->values(residuals, residualTables, kResidualCode, kResidualClasses, cls, values, count);
-  }
-  std::uint64_t rawField(std::uint64_t value, unsigned width) { return raw.code(value, width); }
-
-  void expectEnd(bool withGaps) {
-    if (withGaps) gaps.expectEnd();
-    residuals.expectEnd();
-    fields.expectEnd();
-    raw.expectEnd();
-  }
-
- private:
-  template <class T>
-  void values(RansReader& stream, const TableSet& tables, const ValueCode& code,
-              const ValueClasses& classes, unsigned cls, T* values, std::size_t count) {
-    const unsigned shift = classes.shift(cls);
-    std::array<std::uint8_t, kChunkPoints> symbols;
-    const unsigned greatest = stream.run(tables[classes.table(cls)], count, symbols.data());
-    if (greatest < code.direct()) {
-      if (shift == 0) {
-        for (std::size_t i = 0; i < count; ++i) values[i] = symbols[i];
-        return;
-      }
-      const std::size_t from = raw.advance(count * shift);
-      const BitReader bits = raw;  // copies live in registers
-      for (std::size_t i = 0; i < count; ++i) {
-        values[i] =
-            static_cast<T>((std::uint64_t{symbols[i]} << shift) | bits.at(from + i * shift, shift));
-      }
-      return;
-    }
-    if (shift + code.extraBits(greatest) > kMaxFieldBits) {
-      throw Error(ErrorCode::Corrupt, "a value has more bits than any coordinate");
-    }
-    BitReader bits = raw;
-    for (std::size_t i = 0; i < count; ++i) {
-      const unsigned width = shift + code.extraBits(symbols[i]);
-      values[i] = static_cast<T>((code.base(symbols[i]) << shift) + bits.get(width));
-    }
-    raw = bits;
   }
 };
 

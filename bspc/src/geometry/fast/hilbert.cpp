@@ -83,7 +83,6 @@ HilbertPlane::HilbertPlane() {
         if (y == 0) state ^= x != 0 ? 3 : 1;
       }
       place_[first][xy] = static_cast<std::uint16_t>(place | (state << 8));
-      position_[first][place] = static_cast<std::uint16_t>(xy | (state << 8));
     }
   }
 }

@@ -29,6 +29,18 @@ bool hasVectorRans();
 unsigned vectorRun(const std::uint32_t* entries, std::size_t count, RansLanes& lanes,
                    std::uint8_t* symbols);
 
+/// A run of one of two streams.
+struct VectorRun {
+  const std::uint32_t* entries;
+  RansLanes* lanes;
+  std::uint8_t* symbols;
+  unsigned greatest = 0;  ///< set by vectorRuns()
+};
+
+/// The same of two streams that have as many symbols to come: neither waits while the other's
+/// states are looked up.
+void vectorRuns(VectorRun& a, VectorRun& b, std::size_t count);
+
 /// Codes the count / 8 times eight symbols that end before `end`, the last ones first, by a table
 /// of all symbols; only if hasVectorRans(). Words go before `at`, which is moved back; up to 16
 /// bytes before what it uses are overwritten.

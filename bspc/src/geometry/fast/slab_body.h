@@ -34,4 +34,7 @@ std::vector<std::uint32_t> writeSlabs(const TileFrame& frame, const SetPoints& p
 void readSlabs(ByteView body, std::uint64_t points, bool uvTree, unsigned extraLevels,
                std::uint32_t maxDepth, PointCollector& out);
 
+/// Whether this machine can run the encoder and the decoder that are compiled for AVX2.
+bool hasAvx2Slabs();
+
 }  // namespace bspc::geometry::fast

@@ -19,32 +19,19 @@ inline std::uint64_t codeOf(const HilbertPlane& curve, const SlabFrame& frame, s
 }
 
 /// The inverse of codeOf(), for `count` codes. Codes that are too large give wrong positions.
-template <unsigned CurveLevels>
-void positionsOfCodes(const HilbertPlane& curve, const SlabFrame& frame, const std::uint64_t* codes,
-                      std::size_t count, std::uint32_t* u, std::uint32_t* v) {
+inline void positionsOfCodes(const SlabFrame& frame, const std::uint64_t* codes, std::size_t count,
+                             std::uint32_t* u, std::uint32_t* v) {
   const unsigned bu = frame.below[0];
   const unsigned bv = frame.below[1];
+  const unsigned levels = frame.curveLevels;
   const auto maskU = static_cast<std::uint32_t>(lowBits(bu));
   const auto maskV = static_cast<std::uint32_t>(lowBits(bv));
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint64_t code = codes[i];
     const std::uint32_t xy =
-        curve.position(static_cast<std::uint32_t>(code >> (bu + bv)), CurveLevels);
+        HilbertPlane::position(static_cast<std::uint32_t>(code >> (bu + bv)), levels);
     u[i] = ((xy >> 16) << bu) | (static_cast<std::uint32_t>(code >> bv) & maskU);
     v[i] = ((xy & 0xFFFF) << bv) | (static_cast<std::uint32_t>(code) & maskV);
-  }
-}
-
-inline void positionsOfCodes(const HilbertPlane& curve, const SlabFrame& frame,
-                             const std::uint64_t* codes, std::size_t count, std::uint32_t* u,
-                             std::uint32_t* v) {
-  switch (frame.curveLevels) {
-    case 4:
-      return positionsOfCodes<4>(curve, frame, codes, count, u, v);
-    case 8:
-      return positionsOfCodes<8>(curve, frame, codes, count, u, v);
-    default:
-      return positionsOfCodes<12>(curve, frame, codes, count, u, v);
   }
 }
 

@@ -13,8 +13,7 @@ std::vector<std::uint32_t> writeSlabsPortable(const TileFrame& frame, const SetP
                                               const SlabOptions& options,
                                               container::ByteWriter& out);
 
-/// Whether this machine can run writeSlabsAvx2().
-bool hasAvx2SlabWriter();
+/// Only if hasAvx2Slabs().
 std::vector<std::uint32_t> writeSlabsAvx2(const TileFrame& frame, const SetPoints& points,
                                           const SlabOptions& options, container::ByteWriter& out);
 

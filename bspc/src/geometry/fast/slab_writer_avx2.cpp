@@ -22,7 +22,7 @@ namespace bspc::geometry::fast {
 
 #if defined(__x86_64__) && defined(__GNUC__)
 
-bool hasAvx2SlabWriter() {
+bool hasAvx2Slabs() {
   static const bool has = __builtin_cpu_supports("avx2") != 0 &&
                           __builtin_cpu_supports("bmi") != 0 && __builtin_cpu_supports("bmi2") != 0;
   return has;
@@ -56,7 +56,7 @@ std::vector<std::uint32_t> writeSlabsAvx2(const TileFrame& frame, const SetPoint
 
 #else
 
-bool hasAvx2SlabWriter() { return false; }
+bool hasAvx2Slabs() { return false; }
 
 std::vector<std::uint32_t> writeSlabsAvx2(const TileFrame&, const SetPoints&, const SlabOptions&,
                                           container::ByteWriter&) {

@@ -11,8 +11,8 @@ std::vector<std::uint32_t> writeSlabsPortable(const TileFrame& frame, const SetP
 
 std::vector<std::uint32_t> writeSlabs(const TileFrame& frame, const SetPoints& points,
                                       const SlabOptions& options, container::ByteWriter& out) {
-  return hasAvx2SlabWriter() ? writeSlabsAvx2(frame, points, options, out)
-                             : writeSlabsPortable(frame, points, options, out);
+  return hasAvx2Slabs() ? writeSlabsAvx2(frame, points, options, out)
+                        : writeSlabsPortable(frame, points, options, out);
 }
 
 }  // namespace bspc::geometry::fast

@@ -46,26 +46,14 @@ class PointCollector {
     report(count);
   }
 
-  /// The same of points whose coordinates stand in a column each, in the order of `axis`; the
-  /// columns are changed.
-  void append(const std::array<std::uint32_t*, 3>& columns, const unsigned (&axis)[3],
-              std::size_t count) {
-    std::array<const std::uint32_t*, 3> xyz{};
-    std::uint32_t outside = 0;
-    for (unsigned k = 0; k < 3; ++k) {
-      const std::uint32_t extent = frame_.extent[axis[k]];
-      xyz[axis[k]] = columns[k];
-      for (std::size_t i = 0; i < count; ++i) outside |= columns[k][i] > extent ? 1 : 0;
-    }
-    if (outside != 0) failOutside();
-    for (unsigned k = 0; k < 3; ++k) {
-      const std::vector<std::uint32_t>& values = frame_.values[axis[k]];
-      if (values.empty()) continue;
-      for (std::size_t i = 0; i < count; ++i) columns[k][i] = values[columns[k][i]];
-    }
-    GridPoint* to = grow(count);
-    for (std::size_t i = 0; i < count; ++i) to[i] = {xyz[0][i], xyz[1][i], xyz[2][i]};
+  /// Coordinates of points that were found to lie inside of the tile.
+  void appendInside(const GridPoint* points, std::size_t count) {
+    budget_.beforeAppend(out_, count);
+    out_.points.insert(out_.points.end(), points, points + count);
     report(count);
+  }
+  [[noreturn]] static void failOutside() {
+    throw Error(ErrorCode::Corrupt, "a point lies outside of its tile: the file is damaged");
   }
 
   const TileFrame& frame() const { return frame_; }
@@ -75,9 +63,6 @@ class PointCollector {
  private:
   static constexpr std::size_t kProgressStep = std::size_t{1} << 16;
 
-  [[noreturn]] static void failOutside() {
-    throw Error(ErrorCode::Corrupt, "a point lies outside of its tile: the file is damaged");
-  }
   GridPoint* grow(std::size_t count) {
     const std::size_t first = out_.points.size();
     budget_.beforeAppend(out_, count);

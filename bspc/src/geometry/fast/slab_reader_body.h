@@ -1,10 +1,17 @@
+#pragma once
+
+// The decoder of slabs, for one instruction set. To be included by the sources that are compiled
+// for one each (slab_reader_portable.cpp, slab_reader_avx2.cpp), and by nothing else.
+
 #include <algorithm>
 #include <memory>
 #include <string>
 
 #include "container/byte_reader.h"
+#include "entropy/lane_set.h"
 #include "entropy/symbol_coder.h"
 #include "geometry/fast/chunk_coder.h"
+#include "geometry/fast/chunk_reader.h"
 #include "geometry/fast/slab_body.h"
 #include "geometry/fast/slab_curve.h"
 #include "geometry/fast/slab_sorter.h"
@@ -12,8 +19,7 @@
 #include "geometry/fast/uv_tree.h"
 
 namespace bspc::geometry::fast {
-
-namespace {
+inline namespace BSPC_LANE_SET {
 
 /// The sections of a body, in a copy that can be read past its end.
 struct Sections {
@@ -76,6 +82,7 @@ class SlabReader {
   void read(ByteView treeSection, std::uint64_t points) {
     BitReader tree(treeSection.data(), treeSection.size());
     codeSlabTree(tree, *this, Node{}, rootCell(out_.frame().extent), points, out_.frame().scale);
+    flush();
     tree.expectEnd();
     in_.expectEnd(!uvTree_);
     if (uvTree_) uvCoder_->finish();
@@ -99,6 +106,8 @@ class SlabReader {
       chunk.count = static_cast<std::size_t>(std::min<std::uint64_t>(kChunkPoints, points - first));
       if (!uvTree_) {
         readGaps(frame, code);
+        const std::uint64_t left = points - first - chunk.count;
+        in_.announceGaps(static_cast<std::size_t>(std::min<std::uint64_t>(kChunkPoints, left)));
       } else if (plane_.empty()) {
         std::fill(chunk.u.begin(), chunk.u.end(), 0U);
         std::fill(chunk.v.begin(), chunk.v.end(), 0U);
@@ -118,6 +127,7 @@ class SlabReader {
 
  private:
   using Tree = UvTree<entropy::SymbolReader, BitReader>;
+  using Columns = std::array<std::uint32_t*, 3>;  ///< u, v, w
 
   void readGaps(const SlabFrame& frame, std::uint64_t& code) {
     chunks_.codeGaps(chunk_);
@@ -125,8 +135,7 @@ class SlabReader {
       code += chunk_.gaps[i];
       chunk_.gaps[i] = code;
     }
-    positionsOfCodes(HilbertPlane::instance(), frame, chunk_.gaps.data(), chunk_.count,
-                     chunk_.u.data(), chunk_.v.data());
+    positionsOfCodes(frame, chunk_.gaps.data(), chunk_.count, chunk_.u.data(), chunk_.v.data());
   }
 
   void readPlane(const SlabFrame& frame, std::uint64_t points) {
@@ -168,22 +177,26 @@ class SlabReader {
         chunk.y[i] = chunk.footprint.normal(1, chunk.v[i]);
       }
       evaluate(chunk.surface, chunk.x.data(), chunk.y.data(), count, chunk.w.data());
+      // filtered(), with what need not wait for the expectation before taken out of its way.
+      std::uint32_t expected = 0;
+      std::uint32_t known = 64;
       std::uint32_t last = 0;
-      std::uint32_t beforeLast = 0;
       for (std::size_t i = 0; i < count; ++i) {
-        const std::uint32_t residual = filtered(last, beforeLast) + unzigzag32(chunk.residuals[i]);
-        chunk.w[i] += residual;
-        beforeLast = last;
-        last = residual;
+        expected =
+            static_cast<std::uint32_t>(static_cast<std::int32_t>(kFilter1 * expected + known) >> 7);
+        const std::uint32_t error = unzigzag32(chunk.residuals[i]);
+        known = kFilter1 * error + kFilter2 * last + 64U;
+        last = expected + error;
+        chunk.w[i] += last;
       }
     }
     history.remember(chunk.footprint, chunk.surface);
     lastHeight_ = chunk.w[count - 1];
   }
 
-  void emit(const Cell& cell, const SlabFrame& frame) {
+  /// Adds the corner of the cell and what was cut off; the local coordinates become ranks.
+  void placeInTile(const Cell& cell, const SlabFrame& frame, const Columns& columns) {
     const std::size_t count = chunk_.count;
-    const std::array<std::uint32_t*, 3> columns{chunk_.u.data(), chunk_.v.data(), chunk_.w.data()};
     unsigned cutBefore = 0;
     for (unsigned k = 0; k < 3; ++k) {
       const unsigned cut = frame.cut[k];
@@ -199,7 +212,35 @@ class SlabReader {
       }
       cutBefore += cut;
     }
-    out_.append(columns, frame.axis, count);
+  }
+
+  void emit(const Cell& cell, const SlabFrame& frame) {
+    const std::size_t count = chunk_.count;
+    const Columns columns{chunk_.u.data(), chunk_.v.data(), chunk_.w.data()};
+    placeInTile(cell, frame, columns);
+    std::array<const std::uint32_t*, 3> xyz{};
+    std::uint32_t outside = 0;
+    for (unsigned k = 0; k < 3; ++k) {
+      const std::uint32_t extent = out_.frame().extent[frame.axis[k]];
+      const std::uint32_t* column = columns[k];
+      xyz[frame.axis[k]] = column;
+      for (std::size_t i = 0; i < count; ++i) outside |= column[i] > extent ? 1 : 0;
+    }
+    if (outside != 0) PointCollector::failOutside();
+    for (unsigned k = 0; k < 3; ++k) {
+      const std::vector<std::uint32_t>& values = out_.frame().values[frame.axis[k]];
+      if (values.empty()) continue;
+      for (std::size_t i = 0; i < count; ++i) columns[k][i] = values[columns[k][i]];
+    }
+    if (points_.size() - pointsHeld_ < count) flush();
+    GridPoint* to = points_.data() + pointsHeld_;
+    for (std::size_t i = 0; i < count; ++i) to[i] = {xyz[0][i], xyz[1][i], xyz[2][i]};
+    pointsHeld_ += count;
+  }
+
+  void flush() {
+    out_.appendInside(points_.data(), pointsHeld_);
+    pointsHeld_ = 0;
   }
 
   PointCollector& out_;
@@ -209,6 +250,10 @@ class SlabReader {
   std::unique_ptr<entropy::SymbolReader> uvCoder_;
   std::unique_ptr<Tree> uvTree_;
   Chunk chunk_{};
+  /// Points side by side where the cache has room: an output that grew chunk by chunk would be
+  /// filled with zeros before.
+  std::array<GridPoint, 8 * kChunkPoints> points_{};
+  std::size_t pointsHeld_ = 0;
   std::uint32_t lastHeight_ = 0;
   std::vector<PlanePoint> plane_;
   std::vector<std::uint64_t> codes_;
@@ -216,10 +261,8 @@ class SlabReader {
   const std::vector<std::uint32_t>* planeOrder_ = nullptr;
 };
 
-}  // namespace
-
-void readSlabs(ByteView body, std::uint64_t points, bool uvTree, unsigned extraLevels,
-               std::uint32_t maxDepth, PointCollector& out) {
+inline void read(ByteView body, std::uint64_t points, bool uvTree, unsigned extraLevels,
+                 std::uint32_t maxDepth, PointCollector& out) {
   const Cell root = rootCell(out.frame().extent);
   const unsigned depth = root.levels[0] + root.levels[1] + root.levels[2];
   if (depth > maxDepth) {
@@ -233,4 +276,5 @@ void readSlabs(ByteView body, std::uint64_t points, bool uvTree, unsigned extraL
   reader->read(sections.views[Sections::kTree], points);
 }
 
+}  // namespace BSPC_LANE_SET
 }  // namespace bspc::geometry::fast
