@@ -12,15 +12,16 @@ FLAGS = (
     "axis values", "wide coordinates", "density", "nearest", "many contexts", "phases", "mirrors",
     "range images", "two layers", "narrow quadric", "farther points", "chains",
 )  # fmt: skip
-_LOWEST = {"quadric", "parallelograms", "projection", "axis values", "phases", "mirrors", "range images"}
-_SEVENTH = _LOWEST | {"separate kinds", "nearest", "many contexts"}
-# Effort: flags, near points, pair reach, refit.
+_LOWEST = {"quadric", "parallelograms", "axis values", "phases", "mirrors", "range images"}
+_SIXTH = _LOWEST | {"projection"}
+_SEVENTH = _SIXTH | {"separate kinds", "nearest", "many contexts"}
+# Effort: flags, near points, pair reach, refit, flat share.
 EFFORTS = {
-    5: (_LOWEST, 6, 8, 0),
-    6: (_LOWEST, 10, 9, 1),
-    7: (_SEVENTH, 13, 14, 1),
-    8: (set(FLAGS), 16, 36, 1),
-    9: (set(FLAGS), 20, 64, 2),
+    5: (_LOWEST, 6, 8, 0, 12),
+    6: (_SIXTH, 10, 9, 1, 6),
+    7: (_SEVENTH, 13, 14, 1, 4),
+    8: (set(FLAGS), 16, 36, 1, 2),
+    9: (set(FLAGS), 20, 64, 2, 2),
 }
 OWN = 15
 
@@ -35,15 +36,17 @@ class Features:
             flags = coder.wide(32)
             require(flags < 1 << len(FLAGS), "unknown features")
             self.flags = {name for i, name in enumerate(FLAGS) if flags >> i & 1}
-            self.cell_points, self.near_points, self.pair_reach, self.refit = (
-                coder.raw(8) for _ in range(4)
+            self.cell_points, self.near_points, self.pair_reach, self.refit, self.flat_share = (
+                coder.raw(8) for _ in range(5)
             )
             require(self.cell_points >= 1, "cells of no points")
             require(1 <= self.near_points <= 24, "a wrong number of near points")
             require(self.refit <= 2, "an unknown way to refit")
         else:
             require(self.effort in EFFORTS, "an unknown effort")
-            self.flags, self.near_points, self.pair_reach, self.refit = EFFORTS[self.effort]
+            self.flags, self.near_points, self.pair_reach, self.refit, self.flat_share = (
+                EFFORTS[self.effort]
+            )
         self.lattices = [0, 0, 0]
         if "phases" in self.flags:
             self.lattices = [coder.wide(32) if coder.bit(2048) else 0 for _ in range(3)]

@@ -40,7 +40,7 @@ class Sets:
 
 
 class PlainMixer:
-    """Of two selectors or more."""
+    """Of one selector or more."""
 
     def __init__(self, start: float, rate: tuple[float, float, float]):
         self.start, self.rate = start, rate
@@ -171,6 +171,7 @@ class DecisionModel:
         else:
             self.side_mixer, self.more_mixer = (PlainMixer(0.12, self.USUAL) for _ in range(2))
         self.share_mixer = PlainMixer(0.12, self.USUAL)
+        self.flat_mixer = PlainMixer(0.06, self.USUAL)
 
     def upper_count(self, coder: RangeDecoder, n: int, q: Question, p: Scene) -> int:
         s = Situation(q, p)
@@ -250,6 +251,23 @@ class DecisionModel:
         e.context("side", 8, z, c[2], s.size)
         e.context("side", 9, z, s.surface, limited(half_octave(ratio) + 6, 0, 11))
         e.context("side", 10, z, c[0], narrow, q.axis)
+
+    def flat_side(self, coder: RangeDecoder, q: Question, p: Scene) -> int:
+        place = (q.axis, min(q.open, 15))
+        e = Evidence(self.counters)
+        e.add(1.0)
+        for said in p.flat.evidence(q):
+            e.add(said)
+        e.add(p.narrow)
+        e.context("flat", 0, place, fine(p.narrow))
+        if "axis values" in self.flags:
+            e.add(p.axis_values.evidence)
+            e.context("flat", 1, place, *p.axis_values.classes)
+        speaks = p.phase_evidence is not None
+        if speaks:
+            e.add(p.phase_evidence)
+            e.context("flat", 2, place, fine(p.phase_evidence))
+        return e.learn(self.flat_mixer.decode(coder, e.inputs, ((place, speaks),)))
 
     def _more(self, coder: RangeDecoder, n: int, fewer: int, s: Situation, q: Question, p: Scene) -> int:
         e, tiny = Evidence(self.counters), real(0.02)

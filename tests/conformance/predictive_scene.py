@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from lanes import Row, bell, inverted, less, plus, scaled, shifted, squares, times, total
 from predictive_candidates import Candidates, NearPoints
-from predictive_surface import Neighbourhood, Question, Surface
+from predictive_surface import FlatBoxes, Neighbourhood, Question, Surface
 from reals import Vector, bits_of, dot, ln, real, root
 
 FAR = 1e10
@@ -110,6 +110,7 @@ class Scene:
         self.surface_error, self.candidate_error = real(0.2), real(0.15)
         self.surface = Surface()
         self.candidates = Candidates(self.flags, features.pair_reach)
+        self.flat = FlatBoxes(features.flat_share)
         self.narrow = self.wide = 0.0
         self.density = 0.0
         self.density_distances = self.point_distances = (0, 0)
@@ -163,6 +164,7 @@ class Scene:
             self.surface.fit(self.near, q.centre, self.spacing, 1.1, "quadric" in self.flags)
             self.fitted = True
         self.candidates.start_box(q, self.spacing, self.candidate_error, self.surface)
+        self.flat.start(self.spacing, self.candidate_error, self.surface_error, self.surface.plane)
 
     def surface_evidence(self) -> float:
         return self.quadric_evidence if self.surface.quadric else self.plane_evidence
@@ -181,8 +183,17 @@ class Scene:
         if self.in_cell:
             self.candidates.ask(q)
             self._ask_coordinates(q)
+            kinds = [answers[0].evidence for answers in self.candidates.answers]
+            self.flat.remember(q, [self.surface_evidence(), *kinds])
         if not self.in_cell or "density" in self.flags:
             self._ask_density(q, 24 if self.in_cell else Neighbourhood.ROOM)
+        self._ask_values(q)
+
+    def ask_flat(self, q: Question) -> None:
+        self._ask_coordinates(q)
+        self._ask_values(q)
+
+    def _ask_values(self, q: Question) -> None:
         if "axis values" in self.flags:
             self.axis_values.ask(q)
         phases = self.phases[q.axis]

@@ -25,6 +25,37 @@ def halves_logit(middle: float, inverse_scale: float, half: float) -> float:
     return ln(real(real(real(high - at) + tiny) / real(real(at - low) + tiny)))
 
 
+class FlatBoxes:
+    """Boxes so small that what is said of their halves follows from what was said of larger ones."""
+
+    def __init__(self, share: int):
+        self.share = share
+        self.largest = [0.0] * 3
+        self.forget()
+
+    def forget(self) -> None:
+        self.per_step = [[0.0] * 4 for _ in range(3)]
+
+    def start(self, spacing: float, candidate_error: float, surface_error: float, plane: Plane | None) -> None:
+        self.forget()
+        width = real(real(real(0.6) * candidate_error) * spacing)
+        depth = real(surface_error * spacing)
+        for k in range(3):
+            along = abs(plane.normal[k]) if plane else 0.0
+            least = min(width, real(depth / real(along + real(0.001))))
+            self.largest[k] = real(self.share / 8 * least)
+
+    def holds(self, q: Question) -> bool:
+        return q.size[q.axis] <= self.largest[q.axis]
+
+    def remember(self, q: Question, said: list[float]) -> None:
+        # Sides are powers of two: nothing is rounded.
+        self.per_step[q.axis] = [x / q.size[q.axis] for x in said]
+
+    def evidence(self, q: Question) -> list[float]:
+        return [x * q.size[q.axis] for x in self.per_step[q.axis]]
+
+
 class Neighbourhood:
     MOST, ROOM = 104, 120
 

@@ -83,11 +83,17 @@ class Tree:
     def _split(self, coder: RangeDecoder, lower: Point, sides: tuple, q: Question, n: int) -> int:
         middle = lower[q.axis] + (1 << (sides[q.axis] - 1))
         if middle > self.extent[q.axis]:
-            if self.scene.in_cell:
+            if self.scene.in_cell and not self._is_flat(q, n):
                 self.scene.candidates.ask(q)
             return 0
+        if self._is_flat(q, n):
+            self.scene.ask_flat(q)
+            return self.model.flat_side(coder, q, self.scene)
         self.scene.ask(q)
         return self.model.upper_count(coder, n, q, self.scene)
+
+    def _is_flat(self, q: Question, n: int) -> bool:
+        return n == 1 and self.scene.in_cell and self.scene.flat.holds(q)
 
     @staticmethod
     def _part(lower: Point, sides: tuple, axis: int, upper: bool) -> tuple[Point, tuple]:
@@ -290,7 +296,8 @@ class Tree:
                 axis = (axis + 1) % 3
             q = self._question(lower, sides, axis)
             upper = self._split(coder, lower, sides, q, 1)
-            self.scene.candidates.take(axis, upper)
+            if not self._is_flat(q, 1):
+                self.scene.candidates.take(axis, upper)
             lower, sides = self._part(lower, sides, axis, bool(upper))
             axis = (axis + 1) % 3
         self._emit(lower, 1)

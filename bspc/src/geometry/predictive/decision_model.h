@@ -20,6 +20,7 @@ class DecisionModel {
     for (unsigned i = 0; i < kSideContexts; ++i) side_[i].resize(kSideSizes[i]);
     for (unsigned i = 0; i < kCountContexts; ++i) count_[i].resize(kCountSizes[i]);
     for (unsigned i = 0; i < 2; ++i) share_[i].resize(kShareSizes[i]);
+    for (unsigned i = 0; i < kFlatContexts; ++i) flat_[i].resize(kFlatSizes[i]);
   }
 
   /// Codes `upper`, the number of the `count` ≥ 1 points of the question's box that lie in its
@@ -32,6 +33,11 @@ class DecisionModel {
     if (count <= kSmall) return codeSmall(coder, upper, count, s, q, p);
     return codeLarge(coder, upper, count, s, q, p);
   }
+
+  /// Whether the only point of a flat box lies in its upper half. The predictors have been asked
+  /// by askFlat().
+  template <class Coder>
+  bool codeFlat(Coder& coder, bool upper, const Question& q, const Predictors& p);
 
  private:
   static constexpr std::uint32_t kSmall = 8;
@@ -173,8 +179,15 @@ class DecisionModel {
   static constexpr std::array<unsigned, 2> kShareSizes{kBisections * kLogits * kCountOctaves,
                                                        kBisections* kLogits* kSizes};
 
+  static constexpr unsigned kFlatOpens = 16;
+  static constexpr unsigned kFlatPlaces = 3 * kFlatOpens;
+  static constexpr unsigned kFlatContexts = 3;
+  static constexpr std::array<unsigned, kFlatContexts> kFlatSizes{
+      kFlatPlaces * kLogits, kFlatPlaces* kValues* kValues, kFlatPlaces* kLogits};
+
   static constexpr unsigned kInputs = 32;
   static constexpr float kWeight = 0.12F;
+  static constexpr float kFlatWeight = 0.06F;
   static constexpr float kLayeredWeight = 0.12F;
   static constexpr float kLayeredCountWeight = 0.2F;
   static constexpr entropy::MixingRate kFinalRate{0.015F, 10, 0.003F};
@@ -186,6 +199,7 @@ class DecisionModel {
   std::array<Counters, kSideContexts> side_;
   std::array<Counters, kCountContexts> count_;
   std::array<Counters, 2> share_;
+  std::array<Counters, kFlatContexts> flat_;
   entropy::Evidence evidence_;
   entropy::LogisticMixer<2> sideMixer_{
       {kSideSets + kSideKinds * 3 * kPhaseOpens, kSidesPerPhase + kSideKinds},
@@ -214,6 +228,7 @@ class DecisionModel {
       kFinalRate};
   entropy::LogisticMixer<2> shareMixer_{
       {kBisections, kBisections}, kInputs, kWeight, {}, kCounterAge};
+  entropy::LogisticMixer<1> flatMixer_{{2 * kFlatPlaces}, kInputs, kFlatWeight, {}, kCounterAge};
 };
 
 template <class Coder>
@@ -285,6 +300,27 @@ inline void DecisionModel::addSideContexts(unsigned z, const Situation& s, const
   add(8, (z * kCoarse + c[Candidates::kProjected]) * kSizes + s.size);
   add(9, zSurface * kSurfaceErrors + error);
   add(10, ((z * kCoarse + c[Candidates::kExtrapolated]) * kCoarse + narrow) * 3 + q.axis);
+}
+
+template <class Coder>
+bool DecisionModel::codeFlat(Coder& coder, bool upper, const Question& q, const Predictors& p) {
+  const unsigned place = q.axis * kFlatOpens + std::min(q.open, kFlatOpens - 1);
+  entropy::Evidence& e = evidence_;
+  e.clear();
+  e.add(1);
+  for (unsigned i = 0; i < FlatBoxes::kSources; ++i) e.add(p.flat.evidence(q, i));
+  e.add(p.coordinates.narrow);
+  e.add(flat_[0][place * kLogits + fine(p.coordinates.narrow)]);
+  if (p.features.has(Features::kAxisValues)) {
+    const AxisValues& a = p.axisValues;
+    e.add(a.evidence);
+    e.add(flat_[1][(place * kValues + a.lowerClass) * kValues + a.upperClass]);
+  }
+  if (p.phaseSpeaks) {
+    e.add(p.phaseEvidence);
+    e.add(flat_[2][place * kLogits + fine(p.phaseEvidence)]);
+  }
+  return flatMixer_.code(coder, upper, e, {2 * place + (p.phaseSpeaks ? 1 : 0)});
 }
 
 template <class Coder>

@@ -4,9 +4,10 @@ namespace bspc::geometry::predictive {
 
 namespace {
 
-constexpr std::uint32_t kLean = Features::kQuadric | Features::kParallelograms |
-                                Features::kProjection | Features::kAxisValues | Features::kPhase |
-                                Features::kMirror | Features::kRangeImage;
+constexpr std::uint32_t kLeast = Features::kQuadric | Features::kParallelograms |
+                                 Features::kAxisValues | Features::kPhase | Features::kMirror |
+                                 Features::kRangeImage;
+constexpr std::uint32_t kLean = kLeast | Features::kProjection;
 constexpr std::uint32_t kMiddle =
     kLean | Features::kSeparateKinds | Features::kNearest | Features::kManyContexts;
 // Efforts 8 and 9 have all flags.
@@ -17,19 +18,22 @@ Features featuresOf(unsigned effort) {
   Features f;
   switch (effort) {
     case 5:
-      f.flags = kLean;
+      f.flags = kLeast;
+      f.flatShare = 12;
       f.nearPoints = 6;
       f.pairReach = 8;
       f.refit = Features::Refit::PerCell;
       break;
     case 6:
       f.flags = kLean;
+      f.flatShare = 6;
       f.nearPoints = 10;
       f.pairReach = 9;
       f.refit = Features::Refit::PerPoint;
       break;
     case 7:
       f.flags = kMiddle;
+      f.flatShare = 4;
       f.nearPoints = 13;
       f.pairReach = 14;
       f.refit = Features::Refit::PerPoint;

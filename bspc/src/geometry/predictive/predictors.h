@@ -6,6 +6,7 @@
 #include "geometry/predictive/coordinates.h"
 #include "geometry/predictive/density.h"
 #include "geometry/predictive/features.h"
+#include "geometry/predictive/flat_boxes.h"
 #include "geometry/predictive/known_points.h"
 #include "geometry/predictive/phase_lattice.h"
 #include "geometry/predictive/surface_fit.h"
@@ -35,6 +36,7 @@ struct Predictors {
   Candidates candidates;
   Coordinates coordinates;
   Density density;
+  FlatBoxes flat;
   AxisValues axisValues;
   PhaseHistograms phases;
   float planeEvidence = 0;
@@ -99,6 +101,7 @@ struct Predictors {
       fitted_ = true;
     }
     candidates.startBox(q, spacing, candidateError, surface);
+    flat.start(features.flatShare, spacing, candidateError, surfaceError, surface.plane);
   }
 
   void ask(const Question& q) {
@@ -107,10 +110,18 @@ struct Predictors {
       candidates.ask(q);
       coordinates.ask(q, points, spacing, features.has(Features::kWideCoordinates),
                       features.has(Features::kNearest));
+      flat.remember(q, surfaceEvidence(), candidates);
     }
     if (!inCell || features.has(Features::kDensity)) {
       density.ask(q, near, spacing, inCell ? kDensityEntries : Neighbourhood::kRoom);
     }
+    if (features.has(Features::kAxisValues)) axisValues.ask(q);
+    askPhase(q);
+  }
+
+  /// The same for a flat box.
+  void askFlat(const Question& q) {
+    coordinates.ask(q, points, spacing, false, false);
     if (features.has(Features::kAxisValues)) axisValues.ask(q);
     askPhase(q);
   }

@@ -33,6 +33,7 @@ void codeFeatures(Coder& coder, unsigned effort, Features& features) {
   features.nearPoints = byte(features.nearPoints);
   features.pairReach = byte(features.pairReach);
   features.refit = static_cast<Features::Refit>(byte(static_cast<std::uint8_t>(features.refit)));
+  features.flatShare = byte(features.flatShare);
   if ((features.flags & ~Features::kAllFlags) != 0 || features.cellPoints == 0 ||
       features.nearPoints == 0 || features.nearPoints > Features::kMostNearPoints ||
       features.refit > Features::Refit::Always) {

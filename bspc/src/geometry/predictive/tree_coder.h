@@ -108,16 +108,25 @@ class TreeCoder {
   std::uint32_t split(const Box& box, const Question& q, std::uint32_t first, std::uint32_t count) {
     const std::uint64_t middle =
         std::uint64_t{box.lower[q.axis]} + (std::uint64_t{1} << (box.open[q.axis] - 1));
+    const bool isFlat = isFlatFor(q, count);
     if (middle > extent_[q.axis]) {
-      if (p_.inCell) p_.candidates.ask(q);
+      if (p_.inCell && !isFlat) p_.candidates.ask(q);
       return 0;
     }
     const std::uint32_t upper =
         Coder::kWriting
             ? points_.countUpper(first, count, q.axis, static_cast<std::uint32_t>(middle))
             : 0;
+    if (isFlat) {
+      p_.askFlat(q);
+      return model_.codeFlat(*coder_, upper != 0, q, p_) ? 1 : 0;
+    }
     p_.ask(q);
     return model_.code(*coder_, upper, count, q, p_);
+  }
+
+  bool isFlatFor(const Question& q, std::uint32_t count) const {
+    return count == 1 && p_.inCell && p_.flat.isFlat(q);
   }
 
   static void descend(Box& box, unsigned axis, bool upper) {
@@ -457,8 +466,10 @@ template <class Coder, class Points>
 void TreeCoder<Coder, Points>::refineOne(Box box, unsigned axis, std::uint32_t first) {
   while (!box.isPoint()) {
     axis = box.openAxis(axis);
-    const bool upper = split(box, questionOf(box, axis), first, 1) != 0;
-    p_.candidates.take(axis, upper);
+    const Question q = questionOf(box, axis);
+    const bool upper = split(box, q, first, 1) != 0;
+    // Of what lies flat in the box either half holds the same share.
+    if (!isFlatFor(q, 1)) p_.candidates.take(axis, upper);
     descend(box, axis, upper);
     axis = after(axis);
   }
