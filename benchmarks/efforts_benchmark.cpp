@@ -84,8 +84,9 @@ struct Removal {
   std::uint32_t flags;
 };
 
-/// No pairs of near points, no candidates.
-constexpr std::uint32_t kAllCandidates = 0;
+/// Not flags: no pairs of near points, no candidates; no box is flat.
+constexpr std::uint32_t kAllCandidates = ~Features::kAllFlags;
+constexpr std::uint32_t kFlatBoxes = kAllCandidates << 1;
 
 constexpr Removal kRemovals[] = {
     {"mirror planes", Features::kMirror},
@@ -105,6 +106,9 @@ constexpr Removal kRemovals[] = {
     {"distance to the nearest point", Features::kNearest},
     {"six more contexts", Features::kManyContexts},
     {"mixing in two layers", Features::kTwoLayers},
+    {"near points a cell farther off", Features::kFartherPoints},
+    {"rows of three that bend", Features::kChains},
+    {"flat boxes", kFlatBoxes},
 };
 
 /// Bits a point of a model's payload.
@@ -144,6 +148,7 @@ void printAblation(const std::vector<std::string>& paths, unsigned effort) {
     Features features = all;
     features.flags &= ~removal.flags;
     if (removal.flags == kAllCandidates) features.pairReach = 0;
+    if (removal.flags == kFlatBoxes) features.flatShare = 0;
     double loss = 0;
     std::printf("%s", removal.name);
     for (std::size_t m = 0; m < models.size(); ++m) {
