@@ -65,20 +65,64 @@ settings=(
 work=$root/work
 rm -rf "$work"
 mkdir -p "$work"
-files=0
-differing_files=0
-failures=0
 
-# What all builds restore from $1, as a model of format $3 (ply), must be what the first one does.
+# What all builds restore from $1, as a model of format $4 (ply), must be what the first one does.
+# $2 names it, $3 is a folder for what is restored. Prints a line for each build that differs.
 compare_decoders() {
-  local file=$1 what=$2 format=${3:-ply} build
+  local file=$1 what=$2 folder=$3 format=${4:-ply} build
   for build in "${builds[@]}"; do
-    "$root/$build/bin/bspc" decode "$file" "$work/$build.$format" --force --quiet
-    if ! cmp -s "$work/${builds[0]}.$format" "$work/$build.$format"; then
-      echo "compilers: $what: $build restores other points than ${builds[0]}" >&2
-      failures=$((failures + 1))
-    fi
+    "$root/$build/bin/bspc" decode "$file" "$folder/$build.$format" --force --quiet
+    cmp -s "$folder/${builds[0]}.$format" "$folder/$build.$format" ||
+      echo "$what: $build restores other points than ${builds[0]}"
   done
+}
+
+compare_good_files() {
+  local folder=$1 file format
+  for file in "${good[@]}"; do
+    # PLY has no place for lines and texts.
+    for format in ply obj csv; do
+      "$root/${builds[0]}/bin/bspc" decode "$file" "$folder/first.$format" --force --quiet \
+        2>/dev/null && break
+    done
+    compare_decoders "$file" "$file" "$folder" "$format" >>"$folder/failures"
+  done
+  echo "compilers: ${#good[@]} good files, each decoded by ${#builds[@]} builds"
+}
+
+compare_model() {
+  local folder=$1 model=$2 setting what build file sum
+  for setting in "${settings[@]}"; do
+    what="$(basename "$model") ${setting:-default}"
+    read -ra options <<<"$setting"
+    local -A seen=()
+    for build in "${builds[@]}"; do
+      file=$folder/$build.bspc
+      "$root/$build/bin/bspc" encode "$model" "$file" --force --quiet "${options[@]}"
+      sum=$(sha256sum <"$file")
+      # Equal files need one comparison of decoders only.
+      [[ -n ${seen[$sum]:-} ]] ||
+        compare_decoders "$file" "$what, encoded by $build" "$folder" >>"$folder/failures"
+      seen[$sum]=1
+    done
+    ((${#seen[@]} == 1)) || echo "$what: ${#seen[@]} different files" >>"$folder/differences"
+  done
+  echo "compilers: $(basename "$model"), ${#settings[@]} settings, each encoded and decoded by" \
+    "${#builds[@]} builds"
+}
+
+# Runs "$@" with a folder of its own as its first argument, beside as many others as there are
+# processors.
+side_by_side() {
+  local folder
+  while (($(jobs -rp | wc -l) >= $(nproc))); do wait -n || true; done
+  folder=$(mktemp -d "$work/XXXXXX")
+  touch "$folder/failures" "$folder/differences" "$folder/unfinished"
+  (
+    # Not joined by &&, which would let the function go on after an error.
+    "$1" "$folder" "${@:2}"
+    rm "$folder/unfinished"
+  ) &
 }
 
 shopt -s nullglob
@@ -88,48 +132,26 @@ models=(Testing/Data/*.ply)
   echo "compilers: there are no models or no files in Testing/Data" >&2
   exit 1
 }
-for file in "${good[@]}"; do
-  # PLY has no place for lines and texts.
-  for format in ply obj csv; do
-    "$root/${builds[0]}/bin/bspc" decode "$file" "$work/first.$format" --force --quiet 2>/dev/null &&
-      break
-  done
-  compare_decoders "$file" "$file" "$format"
-done
 # No model there has faces.
 "$root/${builds[0]}/bin/bspc" decode Testing/Data/golden/surface_mesh.bspc "$work/mesh.ply" --quiet
 models+=("$work/mesh.ply")
-for model in "${models[@]}"; do
-  for setting in "${settings[@]}"; do
-    what="$(basename "$model") ${setting:-default}"
-    read -ra options <<<"$setting"
-    declare -A seen=()
-    for build in "${builds[@]}"; do
-      file=$work/$build.bspc
-      "$root/$build/bin/bspc" encode "$model" "$file" --force --quiet "${options[@]}"
-      sum=$(sha256sum <"$file")
-      # Equal files need one comparison of decoders only.
-      [[ -n ${seen[$sum]:-} ]] || compare_decoders "$file" "$what, encoded by $build"
-      seen[$sum]=1
-    done
-    files=$((files + 1))
-    if ((${#seen[@]} > 1)); then
-      differing_files=$((differing_files + 1))
-      echo "compilers: $what: ${#seen[@]} different files"
-    fi
-    unset seen
-  done
-done
 
-echo "compilers: ${#good[@]} good files, each decoded by ${#builds[@]} builds"
-echo "compilers: $files models and settings, each encoded and decoded by ${#builds[@]} builds"
-if ((failures > 0)); then
-  echo "compilers: FAILED: $failures times a build restored other points" >&2
+side_by_side compare_good_files
+for model in "${models[@]}"; do side_by_side compare_model "$model"; done
+wait
+
+cat "$work"/*/failures "$work"/*/differences | sed 's/^/compilers: /'
+unfinished=("$work"/*/unfinished)
+failures=$(cat "$work"/*/failures | wc -l)
+if ((${#unfinished[@]} > 0 || failures > 0)); then
+  echo "compilers: FAILED: $failures times a build restored other points," \
+    "${#unfinished[@]} comparisons broke off" >&2
   exit 1
 fi
 echo "compilers: every file restores the same bytes with every build"
-if ((differing_files == 0)); then
+differences=$(cat "$work"/*/differences | wc -l)
+if ((differences == 0)); then
   echo "compilers: the encoded files are equal too"
 else
-  echo "compilers: the encoded files differ in $differing_files of them"
+  echo "compilers: the encoded files differ in $differences models and settings"
 fi
