@@ -1,8 +1,10 @@
 """Disks that are full, signals, and processes that read and write one file."""
 
+import os
 import resource
 import signal
 import subprocess
+import tempfile
 import time
 import unittest
 
@@ -12,6 +14,10 @@ from fault_support import FaultTest
 
 class FullDisk(FaultTest):
     def test_leaves_the_old_file(self):
+        # Counts of the lines that run are files too, and the limit would leave half of one.
+        counts = tempfile.TemporaryDirectory()
+        self.addCleanup(counts.cleanup)
+        apart = {**os.environ, "GCOV_PREFIX": counts.name, "GCOV_ERROR_FILE": os.devnull}
         # ThreadSanitizer writes a file when it starts, and would be what a limit of 0 stops.
         for size in (1, 100, 3000):
 
@@ -20,7 +26,7 @@ class FullDisk(FaultTest):
 
             for name, command in self.commands():
                 with self.subTest(command=command, size=size):
-                    self.refuse(name, *command, preexec_fn=limit)
+                    self.refuse(name, *command, preexec_fn=limit, env=apart)
                     self.expect_old_files()
 
     def test_is_an_error_of_info_too(self):
