@@ -21,7 +21,7 @@ EFFORTS = {
     6: (_SIXTH, 10, 9, 1, 6),
     7: (_SEVENTH, 13, 14, 1, 4),
     8: (set(FLAGS), 16, 36, 1, 2),
-    9: (set(FLAGS), 20, 64, 2, 2),
+    9: (set(FLAGS), 20, 64, 2, 0),
 }
 OWN = 15
 

@@ -39,6 +39,7 @@ Features featuresOf(unsigned effort) {
       f.refit = Features::Refit::PerPoint;
       break;
     case 8:
+      f.flatShare = 2;
       f.nearPoints = 16;
       f.pairReach = 36;
       f.refit = Features::Refit::PerPoint;

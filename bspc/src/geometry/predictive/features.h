@@ -42,7 +42,7 @@ struct Features {
   std::uint8_t pairReach = 16;   ///< pairs of them make candidates up to that distance: its square
   Refit refit = Refit::Always;
   /// Boxes of one point up to so many eighths of a width of candidates are flat (FlatBoxes).
-  std::uint8_t flatShare = 2;
+  std::uint8_t flatShare = 0;
 
   bool has(Flag flag) const { return (flags & flag) != 0; }
 };
