@@ -96,6 +96,14 @@ std::vector<double> rangeImage(std::int64_t width, std::int64_t height) {
   return xyz;
 }
 
+/// A terrain in finer steps, the lowest of which say nothing.
+std::vector<double> scanned(unsigned side) {
+  std::vector<double> xyz = terrain(side, 256, 0);
+  std::mt19937_64 random(2026);
+  for (double& x : xyz) x += static_cast<double>(random() % 100);
+  return xyz;
+}
+
 /// Copies of points behind two planes, a few of them a step off or missing.
 std::vector<double> mirrored(unsigned count) {
   std::vector<double> xyz;
@@ -172,6 +180,11 @@ std::vector<GoldenFile> goldenFiles() {
            {std::pair{"range_image", rangeImage(76, 60)}, std::pair{"mirrored", mirrored(12)},
             std::pair{"lattice", skewLattice(20)}}) {
         add(what, xyz, ScalarType::Float32, Layout::Progressive, 1, any);
+      }
+      for (const unsigned effort : {5U, 7U}) {
+        add("scan_effort_" + std::to_string(effort), scanned(24), ScalarType::Float32,
+            Layout::Progressive, 1, any)
+            ->options.effort = effort;
       }
     }
     if (method == Method::Fast || method == Method::Kd) {
