@@ -91,8 +91,10 @@ compare_good_files() {
 }
 
 compare_model() {
-  local folder=$1 model=$2 setting what build file sum
+  local folder=$1 model=$2 setting what build file sum files=0
   for setting in "${settings[@]}"; do
+    # Faces cannot follow points that are moved onto each other.
+    [[ $model == "$mesh" && $setting == *--stop-* ]] && continue
     what="$(basename "$model") ${setting:-default}"
     read -ra options <<<"$setting"
     local -A seen=()
@@ -105,9 +107,10 @@ compare_model() {
         compare_decoders "$file" "$what, encoded by $build" "$folder" >>"$folder/failures"
       seen[$sum]=1
     done
+    files=$((files + 1))
     ((${#seen[@]} == 1)) || echo "$what: ${#seen[@]} different files" >>"$folder/differences"
   done
-  echo "compilers: $(basename "$model"), ${#settings[@]} settings, each encoded and decoded by" \
+  echo "compilers: $(basename "$model"), $files files, each encoded and decoded by" \
     "${#builds[@]} builds"
 }
 
@@ -133,8 +136,9 @@ models=(Testing/Data/*.ply)
   exit 1
 }
 # No model there has faces.
-"$root/${builds[0]}/bin/bspc" decode Testing/Data/golden/surface_mesh.bspc "$work/mesh.ply" --quiet
-models+=("$work/mesh.ply")
+mesh=$work/mesh.ply
+"$root/${builds[0]}/bin/bspc" decode Testing/Data/golden/surface_mesh.bspc "$mesh" --quiet
+models+=("$mesh")
 
 side_by_side compare_good_files
 for model in "${models[@]}"; do side_by_side compare_model "$model"; done
