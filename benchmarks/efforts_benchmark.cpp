@@ -82,15 +82,13 @@ using geometry::predictive::Features;
 struct Removal {
   const char* name;
   std::uint32_t flags;
+  bool pairs = false;      ///< of near points: without them there are no candidates
+  bool flatBoxes = false;  ///< effort 9 has none
 };
-
-/// Not flags: no pairs of near points, no candidates; no box is flat.
-constexpr std::uint32_t kAllCandidates = ~Features::kAllFlags;
-constexpr std::uint32_t kFlatBoxes = kAllCandidates << 1;
 
 constexpr Removal kRemovals[] = {
     {"mirror planes", Features::kMirror},
-    {"all candidates", kAllCandidates},
+    {"all candidates", 0, true},
     {"candidates a + b - c", Features::kParallelograms},
     {"candidates on the quadric", Features::kProjection},
     {"candidates kept apart", Features::kSeparateKinds},
@@ -108,7 +106,7 @@ constexpr Removal kRemovals[] = {
     {"mixing in two layers", Features::kTwoLayers},
     {"near points a cell farther off", Features::kFartherPoints},
     {"rows of three that bend", Features::kChains},
-    {"flat boxes", kFlatBoxes},
+    {"flat boxes", 0, false, true},
 };
 
 /// Bits a point of a model's payload.
@@ -147,8 +145,8 @@ void printAblation(const std::vector<std::string>& paths, unsigned effort) {
   for (const Removal& removal : kRemovals) {
     Features features = all;
     features.flags &= ~removal.flags;
-    if (removal.flags == kAllCandidates) features.pairReach = 0;
-    if (removal.flags == kFlatBoxes) features.flatShare = 0;
+    if (removal.pairs) features.pairReach = 0;
+    if (removal.flatBoxes) features.flatShare = 0;
     double loss = 0;
     std::printf("%s", removal.name);
     for (std::size_t m = 0; m < models.size(); ++m) {
