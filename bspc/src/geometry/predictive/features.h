@@ -41,7 +41,8 @@ struct Features {
   std::uint8_t nearPoints = 16;  ///< so many known points make candidates at first
   std::uint8_t pairReach = 16;   ///< pairs of them make candidates up to that distance: its square
   Refit refit = Refit::Always;
-  /// Boxes of one point up to so many eighths of a width of candidates are flat (FlatBoxes).
+  /// Boxes of one point up to so many eighths of a width of candidates are flat (FlatBoxes); with
+  /// 0 none is.
   std::uint8_t flatShare = 0;
 
   bool has(Flag flag) const { return (flags & flag) != 0; }
