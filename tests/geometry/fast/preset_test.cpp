@@ -191,7 +191,8 @@ TEST(Sets, OfUnknownKindsAreRefused) {
   limits.maxDepth = 99;
   const OutputBudget budget(limits);
   DecodedTile out;
-  fast::PointCollector collector(frame, budget, {}, out);
+  const PointProgress silent;
+  fast::PointCollector collector(frame, budget, silent, out);
   for (const unsigned kind : {3U, 9U, 16U, 0x22U, 0x71U, 0xF1U}) {
     EXPECT_THROW(
         fast::decodeSet(Bytes{static_cast<std::uint8_t>(kind), 0, 0}, 1, limits, collector), Error);
@@ -247,7 +248,8 @@ TEST(Slabs, AreTheSamePointsWithAndWithoutVectors) {
         limits.maxDepth = 99;
         const OutputBudget budget(limits);
         DecodedTile out;
-        fast::PointCollector collector(frame, budget, {}, out);
+        const PointProgress silent;
+        fast::PointCollector collector(frame, budget, silent, out);
         readSlabs(ByteView(bytes), points.size(), uvTree, 0U, limits.maxDepth, collector);
         return out.points;
       };

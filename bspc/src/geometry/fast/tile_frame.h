@@ -28,6 +28,9 @@ class PointCollector {
   PointCollector(const TileFrame& frame, const OutputBudget& budget, const PointProgress& progress,
                  DecodedTile& out)
       : frame_(frame), budget_(budget), progress_(progress), out_(out) {}
+  /// It keeps a reference, which a temporary function would not outlive.
+  PointCollector(const TileFrame& frame, const OutputBudget& budget, PointProgress&& progress,
+                 DecodedTile& out) = delete;
 
   /// Throws Error(Corrupt) if a point lies outside of the tile.
   void append(const GridPoint* points, std::size_t count) {
