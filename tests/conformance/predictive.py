@@ -17,7 +17,7 @@ _SIXTH = _LOWEST | {"projection"}
 _SEVENTH = _SIXTH | {"separate kinds", "nearest", "many contexts"}
 # Effort: flags, near points, pair reach, refit, flat share.
 EFFORTS = {
-    5: (_LOWEST, 6, 8, 0, 12),
+    5: (_LOWEST, 6, 8, 0, 24),
     6: (_SIXTH, 10, 9, 1, 6),
     7: (_SEVENTH, 13, 14, 1, 4),
     8: (set(FLAGS), 16, 36, 1, 2),

@@ -55,6 +55,7 @@ class Group:
     """Candidates of a kind for a box."""
 
     MOST = 512
+    WORTH_PACKING = 32
 
     def __init__(self, scales: list[float]):
         self.place = [row(), row(), row()]
@@ -98,6 +99,25 @@ class Group:
             mass = less(kernel.high[axis], kernel.low[axis])
             kernel.mass[axis] = shifted(mass, real(1e-7))
 
+    def pack(self) -> None:
+        """Forgets those that have less than a quarter of the mean mass in the box."""
+        if len(self.weight) <= self.WORTH_PACKING:
+            return
+        masses = self.weight
+        for k in range(3):
+            masses = times(masses, self.kernels[-1].mass[k])
+        least = real(total(masses) / (4 * len(self.weight)))
+        kept = [i for i, mass in enumerate(masses) if mass >= least]
+
+        def of_kept(values: Row) -> Row:
+            return row([values[i] for i in kept])
+
+        self.weight = of_kept(self.weight)
+        self.place = [of_kept(column) for column in self.place]
+        for kernel in self.kernels:
+            for rows in (kernel.low, kernel.high, kernel.mass):
+                rows[:] = [of_kept(values) for values in rows]
+
 
 class Answer:
     def __init__(self, lower: float = 0.0, upper: float = 0.0):
@@ -117,6 +137,8 @@ class Candidates:
     def __init__(self, flags: set[str], pair_reach: int):
         self.flags, self.pair_reach = flags, pair_reach
         self.scales = 2 if "two scales" in flags else 1
+        self.speaking = [True, "separate kinds" in flags, "projection" in flags]
+        self.halvings = 0
         self.listed: list[tuple[Vector, float, int]] = []  # place, weight, kind
         self.pairs: dict[int, set[int]] = {}
         widths = (self.scales, self.scales, 1)
@@ -205,6 +227,7 @@ class Candidates:
                 real(1.0 / real(width + 0.5)),
             ]
         self.groups = [Group(scales), Group(scales), Group(scales[-1:])]
+        self.halvings = 0
         margin = real(real(0.3) * spacing)
         half = [real(real(0.5 * q.size[k]) + margin) for k in range(3)]
         separate = "separate kinds" in self.flags
@@ -244,6 +267,14 @@ class Candidates:
     def take(self, axis: int, upper: int) -> None:
         for group in self.groups:
             group.take(axis, upper)
+        self.halvings += 1
+        if self.halvings % 3 == 0:
+            for group in self.groups:
+                group.pack()
+
+    def heard(self) -> list[tuple[int, list[Answer]]]:
+        """The kinds that are told apart, and what is said of each."""
+        return [(kind, self.answers[kind]) for kind in range(3) if self.speaking[kind]]
 
     def nearest_square(self, at: Vector, most: float) -> float:
         for kind in (PROJECTED, PARALLELOGRAM, EXTRAPOLATED):

@@ -209,7 +209,7 @@ class DecisionModel:
         if not p.in_cell or "density" in flags:
             e.add(p.density)
         if p.in_cell:
-            for answers in p.candidates.answers:
+            for _, answers in p.candidates.heard():
                 for answer in answers:
                     e.add(answer.evidence)
             e.add(p.narrow)
@@ -238,7 +238,8 @@ class DecisionModel:
         e.context("side", 1, z, c[0], c[1], s.mass)
         if not p.in_cell or "nearest" in flags:
             e.context("side", 2, z, *s.distances)
-        e.context("side", 3, z, c[2], s.surface)
+        if not p.in_cell or "projection" in flags:
+            e.context("side", 3, z, c[2], s.surface)
         if "axis values" in flags:
             e.context("side", 4, z, *p.axis_values.classes, s.open)
         if "many contexts" not in flags:
@@ -281,11 +282,11 @@ class DecisionModel:
             e.add(-sparseness)
         balance = 0
         if p.in_cell:
-            for kind, answers in enumerate(p.candidates.answers):
+            for kind, answers in p.candidates.heard():
                 a = answers[-1]
                 share = real(real(min(a.lower, a.upper) + real(0.01)) / real(real(a.lower + a.upper) + tiny))
                 e.add(real(ln(share) + 1.0))
-                if kind == 1:
+                if kind < 2:
                     balance = 1 + class_of(share, 10, 0, 5)
         t = (min(n, 9), min(fewer, 4))
         doubt_class = class_of(surface, 7.99, 0, 8)

@@ -110,7 +110,7 @@ class Scene:
         self.surface_error, self.candidate_error = real(0.2), real(0.15)
         self.surface = Surface()
         self.candidates = Candidates(self.flags, features.pair_reach)
-        self.flat = FlatBoxes(features.flat_share)
+        self.flat = FlatBoxes(features.flat_share, 1 + sum(self.candidates.speaking))
         self.narrow = self.wide = 0.0
         self.density = 0.0
         self.density_distances = self.point_distances = (0, 0)
@@ -183,7 +183,7 @@ class Scene:
         if self.in_cell:
             self.candidates.ask(q)
             self._ask_coordinates(q)
-            kinds = [answers[0].evidence for answers in self.candidates.answers]
+            kinds = [answers[0].evidence for _, answers in self.candidates.heard()]
             self.flat.remember(q, [self.surface_evidence(), *kinds])
         if not self.in_cell or "density" in self.flags:
             self._ask_density(q, 24 if self.in_cell else Neighbourhood.ROOM)

@@ -28,13 +28,13 @@ def halves_logit(middle: float, inverse_scale: float, half: float) -> float:
 class FlatBoxes:
     """Boxes so small that what is said of their halves follows from what was said of larger ones."""
 
-    def __init__(self, share: int):
-        self.share = share
+    def __init__(self, share: int, sources: int):
+        self.share, self.sources = share, sources
         self.largest = [0.0] * 3
         self.forget()
 
     def forget(self) -> None:
-        self.per_step = [[0.0] * 4 for _ in range(3)]
+        self.per_step = [[0.0] * self.sources for _ in range(3)]
 
     def start(self, spacing: float, candidate_error: float, surface_error: float, plane: Plane | None) -> None:
         self.forget()

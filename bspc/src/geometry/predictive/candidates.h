@@ -32,7 +32,9 @@ class Candidates {
   std::array<std::array<Answer, kScales>, kKinds> answer{};
 
   explicit Candidates(const Features& features)
-      : features_(features), scales_(features.has(Features::kTwoScales) ? 2 : 1) {}
+      : features_(features),
+        speaks_{true, features.has(Features::kSeparateKinds), features.has(Features::kProjection)},
+        scales_(features.has(Features::kTwoScales) ? 2 : 1) {}
 
   /// Before a cell of side `side`, whose points are about `spacing` apart.
   void startCell(NearPoints& near, float side, float spacing);
@@ -42,15 +44,19 @@ class Candidates {
   void startBox(const Question& q, float spacing, float error, const Surface& surface);
 
   void ask(const Question& q);
-  /// The box is halved: only one half of the last question's is left.
+  /// The box is halved: only one half of the last question's is left. Now and then those that the
+  /// remaining box holds too little of to matter are forgotten.
   void take(unsigned axis, bool upper);
 
   /// Square distance of the nearest candidate of the best kind, at most `most`.
   float nearestSquare(float px, float py, float pz, float most) const;
 
+  /// Whether candidates of a kind are told apart from the others.
+  bool speaks(unsigned kind) const { return speaks_[kind]; }
   const Answer& widest(unsigned kind) const { return answer[kind][scalesOf(kind) - 1]; }
   void addEvidence(entropy::Evidence& evidence) const {
     for (unsigned kind = 0; kind < kKinds; ++kind) {
+      if (!speaks(kind)) continue;
       for (unsigned s = 0; s < scalesOf(kind); ++s) evidence.add(answer[kind][s].evidence);
     }
   }
@@ -59,18 +65,23 @@ class Candidates {
   using Lanes = entropy::Lanes;
   static constexpr unsigned kMostInCell = 2048;
   static constexpr unsigned kMostInBox = 512;
+  static constexpr unsigned kWorthPacking = 32;
+  static constexpr unsigned kPackingPace = 3;  ///< halvings
+  /// Of arrays that are walked together. Were it a power of two, their first entries, the ones in
+  /// use, would all fall on the same few lines of the cache.
+  static constexpr unsigned kStride = kMostInBox + 5 * entropy::kLanes;
 
   struct Kernel {
     float inverseWidth = 1;
-    alignas(32) float low[3][kMostInBox];   ///< distribution function at the lower face
-    alignas(32) float high[3][kMostInBox];  ///< and at the upper one
-    alignas(32) float mass[3][kMostInBox];  ///< between
-    alignas(32) float at[kMostInBox];       ///< at the middle of the last question
+    alignas(32) float low[3][kStride];   ///< distribution function at the lower face
+    alignas(32) float high[3][kStride];  ///< and at the upper one
+    alignas(32) float mass[3][kStride];  ///< between
+    alignas(32) float at[kStride];       ///< at the middle of the last question
   };
   struct Group {
     unsigned count = 0;
-    alignas(32) float place[3][kMostInBox + entropy::kLanes];
-    alignas(32) float weight[kMostInBox + entropy::kLanes];
+    alignas(32) float place[3][kStride];
+    alignas(32) float weight[kStride];
     std::array<Kernel, kScales> kernel;
     void grow(unsigned more) { count = std::min(count + more, kMostInBox); }
   };
@@ -124,8 +135,11 @@ class Candidates {
   void choose(const Question& q, float margin, const List& from, Group& to);
   void project(const Surface& surface, float spacing, const Group& from);
   void spread(const Question& q, unsigned kind);
+  void packGroup(unsigned kind);
+  static void padGroup(Group& group);
 
   Features features_;
+  std::array<bool, kKinds> speaks_;
   unsigned scales_;
   float middle_ = 0;         ///< of the cell, on each axis
   float reach_ = 0;          ///< candidates lie within so much of it
@@ -140,6 +154,7 @@ class Candidates {
   std::array<Vector3, NearPoints::kMost> inner_{};  ///< near points that may be close to candidates
   std::array<std::uint32_t, NearPoints::kMost> pairs_{};  ///< bit j of i: i and j are a pair
   std::array<Group, kKinds> group_{};
+  unsigned halvings_ = 0;  ///< since startBox()
 };
 
 }  // namespace BSPC_LANE_SET

@@ -218,13 +218,17 @@ inline void Candidates::startBox(const Question& q, float spacing, float error,
   if (scales_ == 2) {
     group_[kProjected].kernel[0].inverseWidth = group_[kProjected].kernel[1].inverseWidth;
   }
+  halvings_ = 0;
   for (const Kind kind : {kExtrapolated, kParallelogram}) {
+    if (!speaks(kind)) continue;
     choose(q, 0.3F * spacing, list_[kind], group_[kind]);
     if (features_.has(Features::kProjection) && surface.quadric.valid) {
       project(surface, spacing, group_[kind]);
     }
   }
-  for (unsigned kind = 0; kind < kKinds; ++kind) spread(q, kind);
+  for (unsigned kind = 0; kind < kKinds; ++kind) {
+    if (speaks(kind)) spread(q, kind);
+  }
 }
 
 /// Those in or near the question's box.
@@ -276,13 +280,17 @@ inline void Candidates::project(const Surface& surface, float spacing, const Gro
   }
 }
 
-inline void Candidates::spread(const Question& q, unsigned kind) {
-  Group& group = group_[kind];
-  const auto padded = entropy::wholeLanes(group.count);
-  for (unsigned i = group.count; i < padded; ++i) {
+inline void Candidates::padGroup(Group& group) {
+  for (unsigned i = group.count; i < entropy::wholeLanes(group.count); ++i) {
     group.place[0][i] = group.place[1][i] = group.place[2][i] = Neighbourhood::kNowhere;
     group.weight[i] = 0;
   }
+}
+
+inline void Candidates::spread(const Question& q, unsigned kind) {
+  Group& group = group_[kind];
+  padGroup(group);
+  const auto padded = entropy::wholeLanes(group.count);
   for (unsigned s = 0; s < scalesOf(kind); ++s) {
     Kernel& kernel = group.kernel[s];
     for (unsigned k = 0; k < 3; ++k) {
@@ -310,6 +318,7 @@ inline void Candidates::ask(const Question& q) {
   alignas(32) float lowers[entropy::kLanes] = {};
   unsigned answers = 0;
   for (unsigned kind = 0; kind < kKinds; ++kind) {
+    if (!speaks(kind)) continue;
     Group& group = group_[kind];
     for (unsigned s = 0; s < scalesOf(kind); ++s) {
       Kernel& kernel = group.kernel[s];
@@ -331,16 +340,23 @@ inline void Candidates::ask(const Question& q) {
       lowers[answers++] = a.lower;
     }
   }
+  if (answers == 1) {
+    Answer& only = answer[kExtrapolated][0];
+    only.evidence = entropy::naturalLog((only.upper + 3e-3F) / (only.lower + 3e-3F));
+    return;
+  }
   const auto evidence = entropy::valuesOf(
       entropy::naturalLog((entropy::load(uppers) + 3e-3F) / (entropy::load(lowers) + 3e-3F)));
   answers = 0;
   for (unsigned kind = 0; kind < kKinds; ++kind) {
+    if (!speaks(kind)) continue;
     for (unsigned s = 0; s < scalesOf(kind); ++s) answer[kind][s].evidence = evidence[answers++];
   }
 }
 
 inline void Candidates::take(unsigned axis, bool upper) {
   for (unsigned kind = 0; kind < kKinds; ++kind) {
+    if (!speaks(kind)) continue;
     Group& group = group_[kind];
     for (unsigned s = 0; s < scalesOf(kind); ++s) {
       Kernel& kernel = group.kernel[s];
@@ -353,6 +369,45 @@ inline void Candidates::take(unsigned axis, bool upper) {
       }
     }
   }
+  if (++halvings_ % kPackingPace != 0) return;
+  for (unsigned kind = 0; kind < kKinds; ++kind) {
+    if (group_[kind].count > kWorthPacking) packGroup(kind);
+  }
+}
+
+/// Forgets candidates with less than a quarter of the mean mass in the box.
+inline void Candidates::packGroup(unsigned kind) {
+  Group& group = group_[kind];
+  const Kernel& widest = group.kernel[scalesOf(kind) - 1];
+  alignas(32) float masses[kMostInBox];
+  Lanes total = {};
+  for (unsigned i = 0; i < group.count; i += entropy::kLanes) {
+    const Lanes mass = entropy::load(group.weight + i) * entropy::load(widest.mass[0] + i) *
+                       entropy::load(widest.mass[1] + i) * entropy::load(widest.mass[2] + i);
+    entropy::store(masses + i, mass);
+    total += mass;
+  }
+  const float least = entropy::sum(total) / (4 * static_cast<float>(group.count));
+  unsigned kept = 0;
+  for (unsigned i = 0; i < group.count; i += entropy::kLanes) {
+    const entropy::Packing packing(entropy::maskBits(entropy::load(masses + i) >= least) &
+                                   lanesBefore(group.count, i));
+    const auto keep = [&](float* values) {
+      packing.store(values + kept, entropy::load(values + i));
+    };
+    keep(group.weight);
+    for (unsigned k = 0; k < 3; ++k) {
+      keep(group.place[k]);
+      for (unsigned s = 0; s < scalesOf(kind); ++s) {
+        keep(group.kernel[s].low[k]);
+        keep(group.kernel[s].high[k]);
+        keep(group.kernel[s].mass[k]);
+      }
+    }
+    kept += packing.count();
+  }
+  group.count = kept;
+  padGroup(group);
 }
 
 inline float Candidates::nearestSquare(float px, float py, float pz, float most) const {

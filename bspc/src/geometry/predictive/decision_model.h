@@ -77,6 +77,7 @@ class DecisionModel {
           std::clamp(entropy::halfOctave(p.candidateError) + 10, 0, int{kErrors} - 1));
       float sum = 0.01F;
       for (unsigned kind = 0; kind < Candidates::kKinds; ++kind) {
+        if (!p.candidates.speaks(kind)) continue;
         candidate[kind] = coarse(p.candidates.answer[kind][0].evidence);
         if (kind == Candidates::kProjected) continue;
         const Candidates::Answer& widest = p.candidates.widest(kind);
@@ -285,7 +286,9 @@ inline void DecisionModel::addSideContexts(unsigned z, const Situation& s, const
   if (!p.inCell || f.has(Features::kNearest)) {
     add(2, (z * kDistances + s.lowerDistance) * kDistances + s.upperDistance);
   }
-  add(3, (z * kCoarse + c[Candidates::kProjected]) * kLogits + s.surface);
+  if (!p.inCell || f.has(Features::kProjection)) {
+    add(3, (z * kCoarse + c[Candidates::kProjected]) * kLogits + s.surface);
+  }
   if (f.has(Features::kAxisValues)) {
     const AxisValues& a = p.axisValues;
     add(4, ((z * kValues + a.lowerClass) * kValues + a.upperClass) * kOpens + s.open);
@@ -308,7 +311,10 @@ bool DecisionModel::codeFlat(Coder& coder, bool upper, const Question& q, const 
   entropy::Evidence& e = evidence_;
   e.clear();
   e.add(1);
-  for (unsigned i = 0; i < FlatBoxes::kSources; ++i) e.add(p.flat.evidence(q, i));
+  e.add(p.flat.surfaceEvidence(q));
+  for (unsigned kind = 0; kind < Candidates::kKinds; ++kind) {
+    if (p.candidates.speaks(kind)) e.add(p.flat.candidateEvidence(q, kind));
+  }
   e.add(p.coordinates.narrow);
   e.add(flat_[0][place * kLogits + fine(p.coordinates.narrow)]);
   if (p.features.has(Features::kAxisValues)) {
@@ -344,10 +350,11 @@ bool DecisionModel::codeMore(Coder& coder, bool more, std::uint32_t count, std::
   unsigned balance = 0;
   if (p.inCell) {
     for (unsigned kind = 0; kind < Candidates::kKinds; ++kind) {
+      if (!p.candidates.speaks(kind)) continue;
       const Candidates::Answer& a = p.candidates.widest(kind);
       const float share = (std::min(a.lower, a.upper) + 0.01F) / (a.lower + a.upper + 0.02F);
       e.add(entropy::naturalLog(share) + 1);
-      if (kind == Candidates::kParallelogram)
+      if (kind != Candidates::kProjected)
         balance = 1 + entropy::classOf(share, 10, 0, kBalances - 1);
     }
   }

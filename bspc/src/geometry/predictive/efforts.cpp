@@ -19,7 +19,7 @@ Features featuresOf(unsigned effort) {
   switch (effort) {
     case 5:
       f.flags = kLeast;
-      f.flatShare = 12;
+      f.flatShare = 24;
       f.nearPoints = 6;
       f.pairReach = 8;
       f.refit = Features::Refit::PerCell;

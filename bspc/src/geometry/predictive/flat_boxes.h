@@ -17,8 +17,6 @@ inline namespace BSPC_LANE_SET {
 /// again: the lower bits of deep grids cost a fraction of the upper ones.
 class FlatBoxes {
  public:
-  /// Evidence of the surface, then of each kind of candidates.
-  static constexpr unsigned kSources = 1 + Candidates::kKinds;
   static constexpr float kUnit = 0.125F;  ///< of a width; features say how many
 
   /// Before the first question about a box. `share`: how many kUnit of a width a flat box may be
@@ -42,18 +40,21 @@ class FlatBoxes {
     const float unit = 1 / q.size[q.axis];
     said[0] = surface * unit;
     for (unsigned kind = 0; kind < Candidates::kKinds; ++kind) {
+      if (!candidates.speaks(kind)) continue;
       said[1 + kind] = candidates.answer[kind][0].evidence * unit;
     }
   }
 
-  /// What a source would say of the halves of this one.
-  float evidence(const Question& q, unsigned source) const {
-    return perStep_[q.axis][source] * q.size[q.axis];
+  /// What they would say of the halves of this one.
+  float surfaceEvidence(const Question& q) const { return perStep_[q.axis][0] * q.size[q.axis]; }
+  float candidateEvidence(const Question& q, unsigned kind) const {
+    return perStep_[q.axis][1 + kind] * q.size[q.axis];
   }
 
  private:
   std::array<float, 3> largest_{};  ///< sides of flat boxes, in grid steps
-  std::array<std::array<float, kSources>, 3> perStep_{};
+  /// Evidence of the surface, then of each kind of candidates.
+  std::array<std::array<float, 1 + Candidates::kKinds>, 3> perStep_{};
 };
 
 }  // namespace BSPC_LANE_SET

@@ -142,11 +142,16 @@ struct Predictors {
 
  private:
   void askSurface(const Question& q) {
-    HalvesLogits logits;
-    for (const Spread& spread : surface.quadric.spreadsIn(q, surfaceError, 0.4F * surfaceError)) {
-      logits.add(spread);
-    }
     const bool wantPlane = !inCell || features.has(Features::kPlane) || !surface.quadric.valid;
+    const auto [wide, narrow] = surface.quadric.spreadsIn(q, surfaceError, 0.4F * surfaceError);
+    if (!wantPlane && !features.has(Features::kNarrowQuadric)) {
+      quadricEvidence = halvesLogit(wide);
+      narrowQuadricEvidence = planeEvidence = 0;
+      return;
+    }
+    HalvesLogits logits;
+    logits.add(wide);
+    logits.add(narrow);
     if (wantPlane) logits.add(surface.plane.spreadIn(q));
     const std::array<float, entropy::kLanes> values = logits.values();
     quadricEvidence = values[0];

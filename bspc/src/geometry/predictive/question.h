@@ -20,6 +20,14 @@ struct Question {
   std::uint32_t value = 0;  ///< index of the box's first grid position along the axis, in the tile
 
   float centre(unsigned k) const { return lower[k] + 0.5F * size[k]; }
+
+  /// The same box is to be cut across `axis`, where it is 2^`log2Size` large and begins at `first`.
+  void turnTo(unsigned newAxis, unsigned log2Size, std::uint32_t first) {
+    axis = newAxis;
+    middle = centre(newAxis);
+    open = log2Size;
+    value = first;
+  }
 };
 
 }  // namespace BSPC_LANE_SET

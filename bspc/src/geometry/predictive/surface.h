@@ -27,7 +27,15 @@ struct Spread {
   float half = 0;
 };
 
-/// ln of the odds that each of up to eight quantities lies in the upper half; 0 of the default.
+/// ln of the odds that a quantity lies in the upper half; 0 of the default.
+inline float halvesLogit(const Spread& s) {
+  const float at = entropy::bell((0.0F - s.middle) * s.inverseScale);
+  const float low = entropy::bell((0.0F - s.half - s.middle) * s.inverseScale);
+  const float high = entropy::bell((s.half - s.middle) * s.inverseScale);
+  return entropy::naturalLog((high - at + 1e-5F) / (at - low + 1e-5F));
+}
+
+/// The same of up to eight quantities at a time.
 class HalvesLogits {
  public:
   void add(const Spread& spread) {

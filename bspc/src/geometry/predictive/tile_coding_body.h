@@ -194,8 +194,9 @@ inline unsigned effortOf(const TileInput& tile) {
 
 /// Whether the number of the effort says what the features are.
 inline bool isOfEffort(const Features& features, const TileInput& tile) {
-  return tile.wishes.features == nullptr &&
-         features.cellPoints == featuresOf(effortOf(tile)).cellPoints;
+  const Features preset = featuresOf(effortOf(tile));
+  return tile.wishes.features == nullptr && features.cellPoints == preset.cellPoints &&
+         features.flatShare == preset.flatShare;
 }
 
 /// With the structure that was found, or part of it.
@@ -296,6 +297,12 @@ inline EncodedTile encode(const TileInput& tile, const PointProgress& progress) 
   constexpr std::size_t kWorthTrying = 20000;  // points; of fewer the sample is too large a part
   if (!isGiven && effortOf(tile) >= kTryingEffort && tile.points.size() >= kWorthTrying) {
     features = withBestCells(features, tile);
+  }
+  // Of many points the flat boxes' own mixer learns soon enough that they cost next to nothing.
+  constexpr std::size_t kManyPoints = 100000;
+  constexpr std::uint8_t kLeastFlatShare = 2;
+  if (!isGiven && tile.points.size() >= kManyPoints) {
+    features.flatShare = std::max(features.flatShare, kLeastFlatShare);
   }
   TileStructure structure =
       findStructure(SortedPoints(tile, progress).all(), tile.extent, features);

@@ -91,16 +91,16 @@ class TreeCoder {
   bool levelRemains() const { return level_ < nodes_.size(); }
   std::uint64_t undivided() const { return undivided_; }
 
+  float lowerOf(const Box& box, unsigned k) const {
+    return static_cast<float>(static_cast<std::int64_t>(box.lower[k]) - origin_[k]);
+  }
   Question questionOf(const Box& box, unsigned axis) const {
     Question q;
     for (unsigned k = 0; k < 3; ++k) {
-      q.lower[k] = static_cast<float>(static_cast<std::int64_t>(box.lower[k]) - origin_[k]);
-      q.size[k] = static_cast<float>(std::uint64_t{1} << box.open[k]);
+      q.lower[k] = lowerOf(box, k);
+      q.size[k] = static_cast<float>(std::int64_t{1} << box.open[k]);
     }
-    q.axis = axis;
-    q.middle = q.centre(axis);
-    q.open = box.open[axis];
-    q.value = box.lower[axis];
+    q.turnTo(axis, box.open[axis], box.lower[axis]);
     return q;
   }
 
@@ -464,13 +464,16 @@ void TreeCoder<Coder, Points>::refine(Box& box, unsigned axis, std::uint32_t fir
 
 template <class Coder, class Points>
 void TreeCoder<Coder, Points>::refineOne(Box box, unsigned axis, std::uint32_t first) {
+  Question q = questionOf(box, axis);
   while (!box.isPoint()) {
     axis = box.openAxis(axis);
-    const Question q = questionOf(box, axis);
+    q.turnTo(axis, box.open[axis], box.lower[axis]);
     const bool upper = split(box, q, first, 1) != 0;
     // Of what lies flat in the box either half holds the same share.
     if (!isFlatFor(q, 1)) p_.candidates.take(axis, upper);
     descend(box, axis, upper);
+    q.size[axis] *= 0.5F;
+    q.lower[axis] = lowerOf(box, axis);
     axis = after(axis);
   }
   emit(box, 1);
