@@ -267,6 +267,7 @@ inline Features withBestCells(const Features& features, const TileInput& tile) {
   Features larger = features;
   larger.cellPoints = Features::kLargeCellPoints;
   TileInput sample;
+  sample.wishes = tile.wishes;  // so that what other cells cost in front is part of it
   const std::vector<GridPoint> points =
       sampleOf(tile, std::min<std::size_t>(kSample, tile.points.size()));
   sample.points = points;
