@@ -194,9 +194,8 @@ inline unsigned effortOf(const TileInput& tile) {
 
 /// Whether the number of the effort says what the features are.
 inline bool isOfEffort(const Features& features, const TileInput& tile) {
-  const Features preset = featuresOf(effortOf(tile));
-  return tile.wishes.features == nullptr && features.cellPoints == preset.cellPoints &&
-         features.flatShare == preset.flatShare;
+  return tile.wishes.features == nullptr &&
+         features.cellPoints == featuresOf(effortOf(tile)).cellPoints;
 }
 
 /// With the structure that was found, or part of it.
@@ -263,13 +262,16 @@ inline std::vector<GridPoint> sampleOf(const TileInput& tile, std::size_t count)
 /// The features with larger cells, if a sample takes fewer bits with those: what scans of leaves
 /// and grass do, and meshes do not.
 inline Features withBestCells(const Features& features, const TileInput& tile) {
-  constexpr std::size_t kSample = 2048;
+  constexpr std::size_t kLeastSample = 2048;
+  constexpr std::size_t kMostSample = 8192;
+  constexpr std::size_t kSampled = 32;  // one point in so many
   Features larger = features;
   larger.cellPoints = Features::kLargeCellPoints;
   TileInput sample;
   sample.wishes = tile.wishes;  // so that what other cells cost in front is part of it
+  const std::size_t count = tile.points.size();
   const std::vector<GridPoint> points =
-      sampleOf(tile, std::min<std::size_t>(kSample, tile.points.size()));
+      sampleOf(tile, std::min(std::clamp(count / kSampled, kLeastSample, kMostSample), count));
   sample.points = points;
   sample.lower = points[0];
   GridPoint upper = points[0];
@@ -298,12 +300,6 @@ inline EncodedTile encode(const TileInput& tile, const PointProgress& progress) 
   constexpr std::size_t kWorthTrying = 20000;  // points; of fewer the sample is too large a part
   if (!isGiven && effortOf(tile) >= kTryingEffort && tile.points.size() >= kWorthTrying) {
     features = withBestCells(features, tile);
-  }
-  // Of many points the flat boxes' own mixer learns soon enough that they cost next to nothing.
-  constexpr std::size_t kManyPoints = 100000;
-  constexpr std::uint8_t kLeastFlatShare = 2;
-  if (!isGiven && tile.points.size() >= kManyPoints) {
-    features.flatShare = std::max(features.flatShare, kLeastFlatShare);
   }
   TileStructure structure =
       findStructure(SortedPoints(tile, progress).all(), tile.extent, features);
