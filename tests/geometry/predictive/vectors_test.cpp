@@ -18,7 +18,7 @@ class PredictiveVectors : public testing::TestWithParam<unsigned> {};
 TEST_P(PredictiveVectors, CodeTheSameBytesAndPoints) {
   if (__builtin_cpu_supports("avx2") == 0) GTEST_SKIP() << "this processor has no AVX2";
   for (const auto& points :
-       {test::scannedSphere(1, 2500, 65535), test::scannedSphere(2, 600, 99)}) {
+       {test::scannedSphere(1, 1500, 65535), test::scannedSphere(2, 500, 99)}) {
     TileInput tile = test::tileOf(points, 2);
     tile.wishes.effort = GetParam();
     const EncodedTile coded = predictive::encodePortable(tile, {});
