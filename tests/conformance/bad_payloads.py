@@ -99,7 +99,7 @@ def predictive_rules(good: bytes) -> Iterator[BadFile]:
     for what, start in (
         ("effort 4", "48"),
         ("effort 10", "A8"),
-        ("flags above 2^14", "F8000000006101000018"),
+        ("unknown flags", "F8000000006101000018"),
         ("no cell points", "F0000000000101000018"),
         ("25 near points", "F0000000006191000018"),
         ("no near points", "F0000000006001000018"),

@@ -10,18 +10,18 @@ from range_coder import RangeDecoder, stream_of
 FLAGS = (
     "quadric", "plane", "parallelograms", "projection", "separate kinds", "two scales",
     "axis values", "wide coordinates", "density", "nearest", "many contexts", "phases", "mirrors",
-    "range images", "two layers", "narrow quadric", "farther points", "chains",
+    "range images", "two layers", "narrow quadric", "farther points", "chains", "residuals",
 )  # fmt: skip
 _LOWEST = {"quadric", "parallelograms", "axis values", "phases", "mirrors", "range images"}
 _SIXTH = _LOWEST | {"projection"}
 _SEVENTH = _SIXTH | {"separate kinds", "nearest", "many contexts"}
 # Effort: flags, near points, pair reach, refit, flat share.
 EFFORTS = {
-    5: (_LOWEST, 6, 8, 0, 24),
+    5: (_LOWEST | {"residuals"}, 6, 8, 0, 0),
     6: (_SIXTH, 10, 9, 1, 6),
     7: (_SEVENTH, 13, 14, 1, 4),
-    8: (set(FLAGS), 16, 36, 1, 2),
-    9: (set(FLAGS), 20, 64, 2, 0),
+    8: (set(FLAGS) - {"residuals"}, 16, 36, 1, 2),
+    9: (set(FLAGS) - {"residuals"}, 20, 64, 2, 0),
 }
 OWN = 15
 

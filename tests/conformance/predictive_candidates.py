@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from lanes import Row, bell, less, plus, row, scaled, shifted, squares, times, total
+from lanes import Row, bell, less, over, plus, row, scaled, shifted, squares, times, total
 from predictive_surface import Neighbourhood, Question, Surface
 from reals import Vector, bits_of, ln, real
 
@@ -100,7 +100,7 @@ class Group:
             kernel.mass[axis] = shifted(mass, real(1e-7))
 
     def pack(self) -> None:
-        """Forgets those that have less than a quarter of the mean mass in the box."""
+        """Forgets those that have less than a quarter of the mean mass in the box, if a quarter has."""
         if len(self.weight) <= self.WORTH_PACKING:
             return
         masses = self.weight
@@ -108,6 +108,8 @@ class Group:
             masses = times(masses, self.kernels[-1].mass[k])
         least = real(total(masses) / (4 * len(self.weight)))
         kept = [i for i, mass in enumerate(masses) if mass >= least]
+        if 4 * len(kept) > 3 * len(self.weight):
+            return
 
         def of_kept(values: Row) -> Row:
             return row([values[i] for i in kept])
@@ -240,6 +242,43 @@ class Candidates:
                 self._project(surface, spacing, self.groups[PARALLELOGRAM])
         for group in self.groups:
             group.spread(q)
+
+    def start_residuals(self, q: Question, spacing: float, error: float) -> None:
+        """All kinds as one, weighed by their mass in the box."""
+        width = real(real(real(0.6) * error) * spacing)
+        group = Group([real(1.0 / real(real(0.25 * width) + real(0.4)))])
+        self.groups = [group, Group([1.0]), Group([1.0])]
+        margin = real(real(0.15) * spacing)
+        half = [real(real(0.5 * q.size[k]) + margin) for k in range(3)]
+        for kind in (EXTRAPOLATED, PARALLELOGRAM):
+            for at, weight, own in self.listed:
+                listed = own if "separate kinds" in self.flags else EXTRAPOLATED
+                if listed == kind and all(abs(real(at[k] - q.centre[k])) <= half[k] for k in range(3)):
+                    group.add(at, weight)
+        group.spread(q)
+        self.box_mass = group.weight
+        for k in range(3):
+            self.box_mass = times(self.box_mass, group.kernels[0].mass[k])
+
+    def moments(self, axis: int, origin: float) -> tuple[float, float, float]:
+        """Mean and variance along an axis, and how little their whole mass is."""
+        place = shifted(self.groups[0].place[axis], -origin)
+        weighted = times(self.box_mass, place)
+        none = real(2e-3)
+        inverse = real(1.0 / real(total(self.box_mass) + none))
+        mean = real(total(weighted) * inverse)
+        variance = real(real(total(times(weighted, place)) * inverse) - real(mean * mean))
+        return mean, variance, real(none * inverse)
+
+    def weigh_at(self, axis: int, place: float) -> None:
+        scale = real(0.5 * self.groups[0].kernels[0].scale)
+        t = scaled(shifted(self.groups[0].place[axis], -place), scale)
+        away = shifted(times(t, t), 1.0)
+        self.box_mass = over(self.box_mass, times(away, away))
+
+    def kernel_variance(self) -> float:
+        scale = self.groups[0].kernels[0].scale
+        return real(0.25 / real(scale * scale))
 
     def _project(self, surface: Surface, spacing: float, group: Group) -> None:
         s, t = surface.quadric, surface.quadric.term

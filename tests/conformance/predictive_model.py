@@ -238,20 +238,23 @@ class DecisionModel:
         e.context("side", 1, z, c[0], c[1], s.mass)
         if not p.in_cell or "nearest" in flags:
             e.context("side", 2, z, *s.distances)
-        if not p.in_cell or "projection" in flags:
+        one_layer = not self.layered
+        if one_layer and (not p.in_cell or "projection" in flags):
             e.context("side", 3, z, c[2], s.surface)
         if "axis values" in flags:
             e.context("side", 4, z, *p.axis_values.classes, s.open)
         if "many contexts" not in flags:
             return
         narrow = coarse(p.narrow) if p.in_cell else 8
+        e.context("side", 5, z, class_of(p.density, 3, 12.5, 25), s.size)
+        e.context("side", 6, z, c[0], narrow, q.axis)
+        if not one_layer:
+            return
         ratio = real(real(p.surface_error * p.spacing) / q.size[q.axis])
-        e.context("side", 5, z, narrow, s.size)
-        e.context("side", 6, z, class_of(p.density, 3, 12.5, 25), s.size)
-        e.context("side", 7, z, fine(p.plane_evidence), s.surface)
-        e.context("side", 8, z, c[2], s.size)
-        e.context("side", 9, z, s.surface, limited(half_octave(ratio) + 6, 0, 11))
-        e.context("side", 10, z, c[0], narrow, q.axis)
+        e.context("side", 7, z, narrow, s.size)
+        e.context("side", 8, z, fine(p.plane_evidence), s.surface)
+        e.context("side", 9, z, c[2], s.size)
+        e.context("side", 10, z, s.surface, limited(half_octave(ratio) + 6, 0, 11))
 
     def flat_side(self, coder: RangeDecoder, q: Question, p: Scene) -> int:
         place = (q.axis, min(q.open, 15))

@@ -112,6 +112,8 @@ class Scene:
         self.candidates = Candidates(self.flags, features.pair_reach)
         self.flat = FlatBoxes(features.flat_share, 1 + sum(self.candidates.speaking))
         self.narrow = self.wide = 0.0
+        self.faces: dict[int, list[float]] = {}  # of the box, by axis, as coordinates know them
+        self.middle = 0.0  # of the last question
         self.density = 0.0
         self.density_distances = self.point_distances = (0, 0)
         self.axis_values = AxisValues(bits, points)
@@ -143,6 +145,16 @@ class Scene:
         self.fitted = False
 
     def start_box(self, q: Question, one_point: bool) -> None:
+        self._expect(q, one_point)
+        self.candidates.start_box(q, self.spacing, self.candidate_error, self.surface)
+        self.faces.clear()
+        self.flat.start(self.spacing, self.candidate_error, self.surface_error, self.surface.plane)
+
+    def start_residuals(self, q: Question) -> None:
+        self._expect(q, True)
+        self.candidates.start_residuals(q, self.spacing, self.candidate_error)
+
+    def _expect(self, q: Question, one_point: bool) -> None:
         distances, seen = self.cell_spacing, 1
         surface, candidate = real(0.1), real(0.3)
         six = self.points.nearest_six(q.centre)
@@ -163,8 +175,6 @@ class Scene:
         if not self.fitted or refit == 2 or (refit == 1 and one_point):
             self.surface.fit(self.near, q.centre, self.spacing, 1.1, "quadric" in self.flags)
             self.fitted = True
-        self.candidates.start_box(q, self.spacing, self.candidate_error, self.surface)
-        self.flat.start(self.spacing, self.candidate_error, self.surface_error, self.surface.plane)
 
     def surface_evidence(self) -> float:
         return self.quadric_evidence if self.surface.quadric else self.plane_evidence
@@ -187,13 +197,26 @@ class Scene:
             self.flat.remember(q, [self.surface_evidence(), *kinds])
         if not self.in_cell or "density" in self.flags:
             self._ask_density(q, 24 if self.in_cell else Neighbourhood.ROOM)
-        self._ask_values(q)
+        self.ask_values(q)
+
+    def skip(self, q: Question, flat: bool) -> None:
+        """A half of the box lies outside the tile."""
+        if self.in_cell:
+            if not flat:
+                self.candidates.ask(q)
+            self.faces.pop(q.axis, None)
+
+    def take(self, axis: int, upper: int, flat: bool) -> None:
+        if not flat:
+            self.candidates.take(axis, upper)
+        if axis in self.faces:
+            self.faces[axis][0 if upper else 1] = self.middle
 
     def ask_flat(self, q: Question) -> None:
         self._ask_coordinates(q)
-        self._ask_values(q)
+        self.ask_values(q)
 
-    def _ask_values(self, q: Question) -> None:
+    def ask_values(self, q: Question) -> None:
         if "axis values" in self.flags:
             self.axis_values.ask(q)
         phases = self.phases[q.axis]
@@ -203,7 +226,9 @@ class Scene:
     def _ask_coordinates(self, q: Question) -> None:
         along = (self.points.x, self.points.y, self.points.z)[q.axis]
         low = q.lower[q.axis]
-        bounds = (low, q.middle, real(low + q.size[q.axis]))
+        faces = self.faces.setdefault(q.axis, [low, real(low + q.size[q.axis])])
+        self.middle = q.middle
+        bounds = (faces[0], q.middle, faces[1])
         reaches = [[bound - x for x in along] for bound in bounds]
         reaches = [shifted(r, 0.0) for r in reaches]
 

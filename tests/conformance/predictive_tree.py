@@ -5,6 +5,7 @@ from __future__ import annotations
 from itertools import product
 
 from predictive_model import DecisionModel
+from predictive_residuals import AxisResiduals, ResidualModel
 from predictive_scene import Scene
 from predictive_surface import Question
 from range_coder import AdaptiveBit, RangeDecoder
@@ -34,6 +35,7 @@ class Tree:
         self.cell_points = features.cell_points
         self.scene = Scene(features, self.bits, points)
         self.model = DecisionModel(features.flags)
+        self.residual_model = ResidualModel()
         self.deeper = AdaptiveBit()
         self.points: list[Point] = []
         self.start(points)
@@ -83,8 +85,7 @@ class Tree:
     def _split(self, coder: RangeDecoder, lower: Point, sides: tuple, q: Question, n: int) -> int:
         middle = lower[q.axis] + (1 << (sides[q.axis] - 1))
         if middle > self.extent[q.axis]:
-            if self.scene.in_cell and not self._is_flat(q, n):
-                self.scene.candidates.ask(q)
+            self.scene.skip(q, self._is_flat(q, n))
             return 0
         if self._is_flat(q, n):
             self.scene.ask_flat(q)
@@ -276,6 +277,9 @@ class Tree:
         while sides[axis] == 0:
             axis = (axis + 1) % 3
         q = self._question(lower, sides, axis)
+        if n == 1 and "residuals" in self.scene.flags:
+            self._residuals(coder, lower, sides, q)
+            return
         if not halved or self.changed:
             self.scene.start_box(q, n == 1)
             self.changed = False
@@ -285,7 +289,7 @@ class Tree:
         upper = self._split(coder, lower, sides, q, n)
         whole = upper in (0, n)
         if whole:
-            self.scene.candidates.take(axis, upper)
+            self.scene.take(axis, upper, False)
         for half, count in ((False, n - upper), (True, upper)):
             if count:
                 self._refine(coder, *self._part(lower, sides, axis, half), (axis + 1) % 3, count, whole)
@@ -296,10 +300,26 @@ class Tree:
                 axis = (axis + 1) % 3
             q = self._question(lower, sides, axis)
             upper = self._split(coder, lower, sides, q, 1)
-            if not self._is_flat(q, 1):
-                self.scene.candidates.take(axis, upper)
+            self.scene.take(axis, upper, self._is_flat(q, 1))
             lower, sides = self._part(lower, sides, axis, bool(upper))
             axis = (axis + 1) % 3
+        self._emit(lower, 1)
+
+    def _residuals(self, coder: RangeDecoder, lower: Point, sides: tuple, box: Question) -> None:
+        self.scene.start_residuals(box)
+        residuals = AxisResiduals(box, self.scene)
+        for rank, axis in enumerate(residuals.axes):
+            if sides[axis]:
+                q = self._question(lower, sides, axis)
+                self.residual_model.start_axis(q, residuals.expected(rank), self.scene.spacing)
+            while sides[axis]:
+                upper = 0
+                if lower[axis] + (1 << (sides[axis] - 1)) <= self.extent[axis]:
+                    q = self._question(lower, sides, axis)
+                    upper = self.residual_model.upper(coder, q, self.scene)
+                lower, sides = self._part(lower, sides, axis, bool(upper))
+            residuals.at[axis] = self._in_cell(lower)[axis]
+            self.scene.candidates.weigh_at(axis, residuals.at[axis])
         self._emit(lower, 1)
 
     def _emit(self, position: Point, n: int) -> None:

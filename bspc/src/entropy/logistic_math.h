@@ -47,7 +47,7 @@ inline unsigned classOf(float x, float scale, float offset, unsigned classes) {
 inline float magnitude(float x) { return floatOf(bitsOf(x) & 0x7FFFFFFFU); }
 
 /// Natural logarithm of a positive, normal number.
-inline float naturalLog(float x) {
+BSPC_LANES_INLINE float naturalLog(float x) {
   const std::uint32_t bits = bitsOf(x);
   const auto exponent = static_cast<float>(static_cast<std::int32_t>(bits >> 23) - 127);
   const float m = floatOf((bits & 0x7FFFFFU) | 0x3F800000U) - 1.0F;
@@ -66,7 +66,7 @@ BSPC_LANES_INLINE Lanes naturalLog(const Lanes& x) {
 }
 
 /// 2^x for −100 ≤ x ≤ 100, that of the nearer end beyond.
-inline float exp2(float x) {
+BSPC_LANES_INLINE float exp2(float x) {
   x = clamped(x, -100, 100);
   // 1 below 0; by a mask, as no processor foresees the sign.
   const float below = floatOf(0x3F800000U & (0U - static_cast<std::uint32_t>(x < 0)));
@@ -92,12 +92,12 @@ BSPC_LANES_INLINE Lanes exp2(const Lanes& number) {
 inline int halfOctave(float x) { return static_cast<int>(bitsOf(x) >> 22) - 254; }
 
 /// Probability whose logit is `x`: 1 / (1 + e^−x).
-inline float squash(float x) { return 1 / (1 + exp2(-x * 1.44269504F)); }
+BSPC_LANES_INLINE float squash(float x) { return 1 / (1 + exp2(-x * 1.44269504F)); }
 
 BSPC_LANES_INLINE Lanes squash(const Lanes& x) { return 1.0F / (1.0F + exp2(x * -1.44269504F)); }
 
 /// A bell's distribution function from −1 to 1 with heavy tails: ± (1 − 1 / (1 + |t| + t²)).
-inline float bell(float t) {
+BSPC_LANES_INLINE float bell(float t) {
   const float a = magnitude(t) + t * t;
   const float r = a / (1 + a);
   return floatOf(bitsOf(r) | (bitsOf(t) & 0x80000000U));

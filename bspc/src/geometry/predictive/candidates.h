@@ -48,6 +48,24 @@ class Candidates {
   /// remaining box holds too little of to matter are forgotten.
   void take(unsigned axis, bool upper);
 
+  /// Instead of startBox() before the only point of a box is coded axis by axis: weighs all kinds
+  /// together by their mass in the box.
+  void startResiduals(const Question& q, float spacing, float error);
+  /// Where along an axis they lie.
+  struct Moments {
+    float mean = 0;  ///< from the place asked for
+    float variance = 0;
+    float unexplained = 1;  ///< 0 to 1: how little their whole mass is
+  };
+  Moments momentsAlong(unsigned axis, float from) const;
+  /// The point is known to lie at `place` along an axis: they count the less the farther they are.
+  void weighAt(unsigned axis, float place);
+  /// Square of what a candidate's place is wrong by, at least.
+  float kernelVariance() const {
+    const float width = group_[kExtrapolated].kernel[0].inverseWidth;
+    return 0.25F / (width * width);
+  }
+
   /// Square distance of the nearest candidate of the best kind, at most `most`.
   float nearestSquare(float px, float py, float pz, float most) const;
 
@@ -154,7 +172,8 @@ class Candidates {
   std::array<Vector3, NearPoints::kMost> inner_{};  ///< near points that may be close to candidates
   std::array<std::uint32_t, NearPoints::kMost> pairs_{};  ///< bit j of i: i and j are a pair
   std::array<Group, kKinds> group_{};
-  unsigned halvings_ = 0;  ///< since startBox()
+  unsigned halvings_ = 0;                 ///< since startBox()
+  alignas(32) float boxMass_[kStride]{};  ///< startResiduals() and weighAt()
 };
 
 }  // namespace BSPC_LANE_SET

@@ -375,7 +375,8 @@ inline void Candidates::take(unsigned axis, bool upper) {
   }
 }
 
-/// Forgets candidates with less than a quarter of the mean mass in the box.
+/// Forgets candidates with less than a quarter of the mean mass in the box, if a quarter of them
+/// has so little.
 inline void Candidates::packGroup(unsigned kind) {
   Group& group = group_[kind];
   const Kernel& widest = group.kernel[scalesOf(kind) - 1];
@@ -388,10 +389,16 @@ inline void Candidates::packGroup(unsigned kind) {
     total += mass;
   }
   const float least = entropy::sum(total) / (4 * static_cast<float>(group.count));
+  const auto packingAt = [&](unsigned i) {
+    return entropy::Packing(entropy::maskBits(entropy::load(masses + i) >= least) &
+                            lanesBefore(group.count, i));
+  };
   unsigned kept = 0;
+  for (unsigned i = 0; i < group.count; i += entropy::kLanes) kept += packingAt(i).count();
+  if (4 * kept > 3 * group.count) return;
+  kept = 0;
   for (unsigned i = 0; i < group.count; i += entropy::kLanes) {
-    const entropy::Packing packing(entropy::maskBits(entropy::load(masses + i) >= least) &
-                                   lanesBefore(group.count, i));
+    const entropy::Packing packing = packingAt(i);
     const auto keep = [&](float* values) {
       packing.store(values + kept, entropy::load(values + i));
     };
@@ -408,6 +415,59 @@ inline void Candidates::packGroup(unsigned kind) {
   }
   group.count = kept;
   padGroup(group);
+}
+
+inline void Candidates::startResiduals(const Question& q, float spacing, float error) {
+  for (Group& each : group_) each.count = 0;
+  Group& group = group_[kExtrapolated];
+  for (const List& list : list_) choose(q, 0.15F * spacing, list, group);
+  padGroup(group);
+  const float inverseWidth = 1 / (0.25F * (0.6F * error * spacing) + 0.4F);
+  group.kernel[0].inverseWidth = inverseWidth;
+  for (unsigned i = 0; i < group.count; i += entropy::kLanes) {
+    Lanes mass = entropy::load(group.weight + i);
+    for (unsigned k = 0; k < 3; ++k) {
+      const Lanes place = entropy::load(group.place[k] + i);
+      const float low = q.lower[k];
+      const float high = low + q.size[k];
+      const Lanes atLow = entropy::bell((low - place) * inverseWidth);
+      const Lanes atHigh = entropy::bell((high - place) * inverseWidth);
+      mass = mass * (atHigh - atLow + 1e-7F);
+    }
+    entropy::store(boxMass_ + i, mass);
+  }
+}
+
+inline Candidates::Moments Candidates::momentsAlong(unsigned axis, float from) const {
+  constexpr float kNone = 2e-3F;  // the mass of a place that no candidate foretells
+  const Group& group = group_[kExtrapolated];
+  Lanes mass = {};
+  Lanes first = {};
+  Lanes second = {};
+  for (unsigned i = 0; i < group.count; i += entropy::kLanes) {
+    const Lanes weight = entropy::load(boxMass_ + i);
+    const Lanes place = entropy::load(group.place[axis] + i) - from;
+    const Lanes weighted = weight * place;
+    mass += weight;
+    first += weighted;
+    second += weighted * place;
+  }
+  const float inverse = 1 / (entropy::sum(mass) + kNone);
+  Moments m;
+  m.mean = entropy::sum(first) * inverse;
+  m.variance = entropy::sum(second) * inverse - m.mean * m.mean;
+  m.unexplained = kNone * inverse;
+  return m;
+}
+
+inline void Candidates::weighAt(unsigned axis, float place) {
+  const Group& group = group_[kExtrapolated];
+  const float scale = 0.5F * group.kernel[0].inverseWidth;
+  for (unsigned i = 0; i < group.count; i += entropy::kLanes) {
+    const Lanes t = (entropy::load(group.place[axis] + i) - place) * scale;
+    const Lanes away = 1.0F + t * t;
+    entropy::store(boxMass_ + i, entropy::load(boxMass_ + i) / (away * away));
+  }
 }
 
 inline float Candidates::nearestSquare(float px, float py, float pz, float most) const {

@@ -164,10 +164,10 @@ class DecisionModel {
   static constexpr std::array<unsigned, kSideContexts> kSideSizes{
       kSideKinds * kLogits * kSizes,        kSideKinds* kCoarse* kCoarse* kMasses,
       kSideKinds* kDistances* kDistances,   kSideKinds* kCoarse* kLogits,
-      kSideKinds* kValues* kValues* kOpens, kSideKinds* kCoarse* kSizes,
-      kSideKinds* kLogits* kSizes,          kSideKinds* kLogits* kLogits,
-      kSideKinds* kCoarse* kSizes,          kSideKinds* kLogits* kSurfaceErrors,
-      kSideKinds* kCoarse* kCoarse * 3,     kSideKinds* kLogits* kPhaseOpens};
+      kSideKinds* kValues* kValues* kOpens, kSideKinds* kLogits* kSizes,
+      kSideKinds* kCoarse* kCoarse * 3,     kSideKinds* kCoarse* kSizes,
+      kSideKinds* kLogits* kLogits,         kSideKinds* kCoarse* kSizes,
+      kSideKinds* kLogits* kSurfaceErrors,  kSideKinds* kLogits* kPhaseOpens};
   static constexpr unsigned kCountContexts = 6;
   static constexpr std::array<unsigned, kCountContexts> kCountSizes{kCounts * kSizes,
                                                                     kCounts* kDoubts* kSizes,
@@ -274,6 +274,9 @@ bool DecisionModel::codeSide(Coder& coder, bool upper, SideKind kind, const Situ
 inline void DecisionModel::addSideContexts(unsigned z, const Situation& s, const Question& q,
                                            const Predictors& p) {
   const Features& f = p.features;
+  // Two layers select their weights by the surface and the projected candidates: contexts of these
+  // say nothing new there.
+  const bool oneLayer = !f.has(Features::kTwoLayers);
   const auto add = [this](unsigned context, unsigned index) {
     evidence_.add(side_[context][index]);
   };
@@ -286,7 +289,7 @@ inline void DecisionModel::addSideContexts(unsigned z, const Situation& s, const
   if (!p.inCell || f.has(Features::kNearest)) {
     add(2, (z * kDistances + s.lowerDistance) * kDistances + s.upperDistance);
   }
-  if (!p.inCell || f.has(Features::kProjection)) {
+  if (oneLayer && (!p.inCell || f.has(Features::kProjection))) {
     add(3, (z * kCoarse + c[Candidates::kProjected]) * kLogits + s.surface);
   }
   if (f.has(Features::kAxisValues)) {
@@ -295,14 +298,15 @@ inline void DecisionModel::addSideContexts(unsigned z, const Situation& s, const
   }
   if (!f.has(Features::kManyContexts)) return;
   const unsigned narrow = p.inCell ? coarse(p.coordinates.narrow) : kCoarse / 2;
+  add(5, (z * kLogits + entropy::classOf(p.density.evidence, 3, 12.5F, kLogits)) * kSizes + s.size);
+  add(6, ((z * kCoarse + c[Candidates::kExtrapolated]) * kCoarse + narrow) * 3 + q.axis);
+  if (!oneLayer) return;
   const int octaves = entropy::halfOctave(p.surfaceError * p.spacing / q.size[q.axis]);
   const auto error = static_cast<unsigned>(std::clamp(octaves + 6, 0, int{kSurfaceErrors} - 1));
-  add(5, (z * kCoarse + narrow) * kSizes + s.size);
-  add(6, (z * kLogits + entropy::classOf(p.density.evidence, 3, 12.5F, kLogits)) * kSizes + s.size);
-  add(7, (z * kLogits + fine(p.planeEvidence)) * kLogits + s.surface);
-  add(8, (z * kCoarse + c[Candidates::kProjected]) * kSizes + s.size);
-  add(9, zSurface * kSurfaceErrors + error);
-  add(10, ((z * kCoarse + c[Candidates::kExtrapolated]) * kCoarse + narrow) * 3 + q.axis);
+  add(7, (z * kCoarse + narrow) * kSizes + s.size);
+  add(8, (z * kLogits + fine(p.planeEvidence)) * kLogits + s.surface);
+  add(9, (z * kCoarse + c[Candidates::kProjected]) * kSizes + s.size);
+  add(10, zSurface * kSurfaceErrors + error);
 }
 
 template <class Coder>

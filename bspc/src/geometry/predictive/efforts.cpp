@@ -10,7 +10,7 @@ constexpr std::uint32_t kLeast = Features::kQuadric | Features::kParallelograms 
 constexpr std::uint32_t kLean = kLeast | Features::kProjection;
 constexpr std::uint32_t kMiddle =
     kLean | Features::kSeparateKinds | Features::kNearest | Features::kManyContexts;
-// Efforts 8 and 9 have all flags.
+// Efforts 8 and 9 have all flags but the residuals.
 
 }  // namespace
 
@@ -18,8 +18,7 @@ Features featuresOf(unsigned effort) {
   Features f;
   switch (effort) {
     case 5:
-      f.flags = kLeast;
-      f.flatShare = 24;
+      f.flags = kLeast | Features::kResiduals;
       f.nearPoints = 6;
       f.pairReach = 8;
       f.refit = Features::Refit::PerCell;

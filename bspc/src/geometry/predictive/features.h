@@ -26,8 +26,11 @@ struct Features {
     kNarrowQuadric = 1U << 15,   ///< the quadric once more, as if it erred less
     kFartherPoints = 1U << 16,   ///< where few points are known around, those a cell farther off
     kChains = 1U << 17,          ///< rows of three points bend where they go on
+    kResiduals = 1U << 18,       ///< lone points are coded axis by axis (AxisResiduals)
   };
-  static constexpr std::uint32_t kAllFlags = (1U << 18) - 1;
+  static constexpr std::uint32_t kAllFlags = (1U << 19) - 1;
+  /// Whatever makes files smaller; residuals make coding quicker.
+  static constexpr std::uint32_t kSmallest = kAllFlags & ~std::uint32_t{kResiduals};
 
   /// When the surface is fitted anew.
   enum class Refit : std::uint8_t { PerCell, PerPoint, Always };
@@ -36,7 +39,7 @@ struct Features {
   /// What the encoder tries beside the effort's number of points a cell.
   static constexpr std::uint8_t kLargeCellPoints = 12;
 
-  std::uint32_t flags = kAllFlags;
+  std::uint32_t flags = kSmallest;
   std::uint8_t cellPoints = 6;   ///< cells of so many points or fewer are coded depth first
   std::uint8_t nearPoints = 16;  ///< so many known points make candidates at first
   std::uint8_t pairReach = 16;   ///< pairs of them make candidates up to that distance: its square

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "entropy/logistic_math.h"
+#include "geometry/predictive/axis_residuals.h"
 #include "geometry/predictive/axis_values.h"
 #include "geometry/predictive/candidates_body.h"
 #include "geometry/predictive/coordinates.h"
@@ -37,6 +38,7 @@ struct Predictors {
   Coordinates coordinates;
   Density density;
   FlatBoxes flat;
+  AxisResiduals residuals;
   AxisValues axisValues;
   PhaseHistograms phases;
   float planeEvidence = 0;
@@ -76,32 +78,17 @@ struct Predictors {
 
   /// When the box is not the half of the one asked about last, or a point was found.
   void startBox(const KnownPoints& known, const Question& q, bool onePoint) {
-    const Vector3 centre{q.centre(0), q.centre(1), q.centre(2)};
-    float sum = cellSpacing;
-    float seen = 1;
-    float surfaceErrors = 0.1F;
-    float candidateErrors = 0.3F;
-    const unsigned found = points.visitSix(centre[0], centre[1], centre[2], [&](std::uint32_t i) {
-      const KnownPoint& point = known[i];
-      if (point.nearest < 1e9F) {
-        sum += point.nearest;
-        seen += 1;
-      }
-      surfaceErrors += point.surfaceError;
-      candidateErrors += point.candidateError;
-    });
-    spacing = sum / seen;
-    if (!(spacing >= 1)) spacing = 1;
-    const float all = 1 + static_cast<float>(found);
-    surfaceError = surfaceErrors / all + 0.3F / spacing;
-    candidateError = candidateErrors / all;
-    if (!fitted_ || features.refit == Features::Refit::Always ||
-        (features.refit == Features::Refit::PerPoint && onePoint)) {
-      surface.fit(near, centre, spacing, 1.1F, features.has(Features::kQuadric));
-      fitted_ = true;
-    }
+    expect(known, q, onePoint);
     candidates.startBox(q, spacing, candidateError, surface);
+    coordinates.startBox();
     flat.start(features.flatShare, spacing, candidateError, surfaceError, surface.plane);
+  }
+
+  /// Instead, when the only point of the box is coded axis by axis.
+  void startResiduals(const KnownPoints& known, const Question& q) {
+    expect(known, q, true);
+    candidates.startResiduals(q, spacing, candidateError);
+    residuals.start(q, surface);
   }
 
   void ask(const Question& q) {
@@ -126,11 +113,32 @@ struct Predictors {
     askPhase(q);
   }
 
+  /// A half of the box lies outside the tile: what there is to ask is known.
+  void skip(const Question& q, bool isFlat) {
+    if (!inCell) return;
+    if (!isFlat) candidates.ask(q);
+    coordinates.forget(q.axis);
+  }
+
+  /// The box is halved: only one half of the last question's is left. Of what lies flat in it
+  /// either half holds the same share.
+  void take(unsigned axis, bool upper, bool isFlat) {
+    if (!isFlat) candidates.take(axis, upper);
+    coordinates.take(axis, upper);
+  }
+
+  /// Of what is left of the box along one axis.
+  void askResidual(const Question& q) {
+    if (features.has(Features::kAxisValues)) axisValues.ask(q);
+    askPhase(q);
+  }
+
   /// The better of the two fits.
   float surfaceEvidence() const { return surface.quadric.valid ? quadricEvidence : planeEvidence; }
 
   /// What the point at a place of this cell would have been predicted by; it joins what is known.
-  void learn(KnownPoints& known, const GridPoint& position, float px, float py, float pz);
+  /// `isLast`: of the cell, so that it need not help to predict others of it.
+  void learn(KnownPoints& known, const GridPoint& position, const Vector3& place, bool isLast);
 
   /// What is remembered of points wherever they lie.
   void learnCoordinates(const GridPoint& position) {
@@ -141,6 +149,34 @@ struct Predictors {
   }
 
  private:
+  /// What is to be expected around a box, from the points nearest to it.
+  void expect(const KnownPoints& known, const Question& q, bool onePoint) {
+    const Vector3 centre{q.centre(0), q.centre(1), q.centre(2)};
+    float sum = cellSpacing;
+    float seen = 1;
+    float surfaceErrors = 0.1F;
+    float candidateErrors = 0.3F;
+    const unsigned found = points.visitSix(centre[0], centre[1], centre[2], [&](std::uint32_t i) {
+      const KnownPoint& point = known[i];
+      if (point.nearest < 1e9F) {
+        sum += point.nearest;
+        seen += 1;
+      }
+      surfaceErrors += point.surfaceError;
+      candidateErrors += point.candidateError;
+    });
+    spacing = sum / seen;
+    if (!(spacing >= 1)) spacing = 1;
+    const float all = 1 + static_cast<float>(found);
+    surfaceError = surfaceErrors / all + 0.3F / spacing;
+    candidateError = candidateErrors / all;
+    if (!fitted_ || features.refit == Features::Refit::Always ||
+        (features.refit == Features::Refit::PerPoint && onePoint)) {
+      surface.fit(near, centre, spacing, 1.1F, features.has(Features::kQuadric));
+      fitted_ = true;
+    }
+  }
+
   void askSurface(const Question& q) {
     const bool wantPlane = !inCell || features.has(Features::kPlane) || !surface.quadric.valid;
     const auto [wide, narrow] = surface.quadric.spreadsIn(q, surfaceError, 0.4F * surfaceError);
@@ -173,8 +209,9 @@ struct Predictors {
   bool fitted_ = false;
 };
 
-inline void Predictors::learn(KnownPoints& known, const GridPoint& position, float px, float py,
-                              float pz) {
+inline void Predictors::learn(KnownPoints& known, const GridPoint& position, const Vector3& place,
+                              bool isLast) {
+  const auto [px, py, pz] = place;
   KnownPoint point;
   point.position = position;
   float nearest = KnownPoint::kFar;
@@ -207,6 +244,7 @@ inline void Predictors::learn(KnownPoints& known, const GridPoint& position, flo
   const auto index = static_cast<std::uint32_t>(known.size());
   known.push_back(point);
   learnCoordinates(position);
+  if (isLast) return;
   near.addDecoded(px, py, pz, index);
   if (points.full()) return;
   points.add(px, py, pz, index);

@@ -6,9 +6,11 @@
 #include <vector>
 
 #include "entropy/adaptive_bit.h"
+#include "geometry/predictive/box.h"
 #include "geometry/predictive/decision_model.h"
 #include "geometry/predictive/node_tree.h"
 #include "geometry/predictive/predictors.h"
+#include "geometry/predictive/residual_model.h"
 
 namespace bspc::geometry::predictive {
 inline namespace BSPC_LANE_SET {
@@ -75,19 +77,6 @@ class TreeCoder {
   }
 
  private:
-  /// A box in a cell: lower corner in the tile, and log2 of the sides.
-  struct Box {
-    std::array<std::uint32_t, 3> lower{};
-    std::array<std::uint8_t, 3> open{};
-    bool isPoint() const { return (open[0] | open[1] | open[2]) == 0; }
-    /// From `axis` on, the next one that can be halved.
-    unsigned openAxis(unsigned axis) const {
-      while (open[axis] == 0) axis = axis == 2 ? 0 : axis + 1;
-      return axis;
-    }
-  };
-  static unsigned after(unsigned axis) { return axis == 2 ? 0 : axis + 1; }
-
   bool levelRemains() const { return level_ < nodes_.size(); }
   std::uint64_t undivided() const { return undivided_; }
 
@@ -106,11 +95,10 @@ class TreeCoder {
 
   /// How many of the box's points lie in its upper half.
   std::uint32_t split(const Box& box, const Question& q, std::uint32_t first, std::uint32_t count) {
-    const std::uint64_t middle =
-        std::uint64_t{box.lower[q.axis]} + (std::uint64_t{1} << (box.open[q.axis] - 1));
+    const std::uint64_t middle = box.middle(q.axis);
     const bool isFlat = isFlatFor(q, count);
     if (middle > extent_[q.axis]) {
-      if (p_.inCell && !isFlat) p_.candidates.ask(q);
+      p_.skip(q, isFlat);
       return 0;
     }
     const std::uint32_t upper =
@@ -127,11 +115,6 @@ class TreeCoder {
 
   bool isFlatFor(const Question& q, std::uint32_t count) const {
     return count == 1 && p_.inCell && p_.flat.isFlat(q);
-  }
-
-  static void descend(Box& box, unsigned axis, bool upper) {
-    --box.open[axis];
-    if (upper) box.lower[axis] += std::uint32_t{1} << box.open[axis];
   }
 
   void useOrigin(const Node& node) {
@@ -176,6 +159,7 @@ class TreeCoder {
   void addKnown(const Node& node);
   void refine(Box& box, unsigned axis, std::uint32_t first, std::uint32_t count, bool halved);
   void refineOne(Box box, unsigned axis, std::uint32_t first);
+  void codeResiduals(Box box, Question q, std::uint32_t first);
   void emit(const Box& box, std::uint32_t count);
 
   const Features features_;
@@ -190,9 +174,11 @@ class TreeCoder {
   std::uint64_t undivided_ = 1;
   std::array<std::int64_t, 3> origin_{};  ///< lower corner of the cell at hand
   std::uint32_t cell_ = 0;                ///< its index
+  std::uint32_t remaining_ = 0;           ///< points of it that are not coded
   bool changed_ = true;                   ///< a point was found since the last startBox()
   Predictors p_;
   DecisionModel model_;
+  ResidualModel residualModel_;
 };
 
 template <class Coder, class Points>
@@ -273,7 +259,7 @@ void TreeCoder<Coder, Points>::divide(Box box, unsigned axis, std::uint32_t firs
     const std::uint32_t inHalf = half ? upper : count - upper;
     if (inHalf == 0) continue;
     Box part = box;
-    descend(part, axis, half);
+    part.descend(axis, half);
     divide(part, axis + 1, half ? first + (count - upper) : first, inHalf);
   }
 }
@@ -299,6 +285,7 @@ void TreeCoder<Coder, Points>::codeCell(std::uint32_t index) {
   gatherDepthFirst(node);
   p_.startCell(known_, static_cast<float>(node.side()));
   cell_ = index;
+  remaining_ = node.count;
   changed_ = true;
   Box box;
   for (unsigned k = 0; k < 3; ++k) {
@@ -442,6 +429,10 @@ void TreeCoder<Coder, Points>::refine(Box& box, unsigned axis, std::uint32_t fir
   }
   axis = box.openAxis(axis);
   const Question q = questionOf(box, axis);
+  if (count == 1 && features_.has(Features::kResiduals)) {
+    codeResiduals(box, q, first);
+    return;
+  }
   if (!halved || changed_) {
     p_.startBox(known_, q, count == 1);
     changed_ = false;
@@ -452,13 +443,13 @@ void TreeCoder<Coder, Points>::refine(Box& box, unsigned axis, std::uint32_t fir
   }
   const std::uint32_t upper = split(box, q, first, count);
   const bool whole = upper == 0 || upper == count;
-  if (whole) p_.candidates.take(axis, upper != 0);
+  if (whole) p_.take(axis, upper != 0, false);
   for (const bool half : {false, true}) {
     const std::uint32_t inHalf = half ? upper : count - upper;
     if (inHalf == 0) continue;
     Box part = box;
-    descend(part, axis, half);
-    refine(part, after(axis), half ? first + (count - upper) : first, inHalf, whole);
+    part.descend(axis, half);
+    refine(part, Box::after(axis), half ? first + (count - upper) : first, inHalf, whole);
   }
 }
 
@@ -469,12 +460,43 @@ void TreeCoder<Coder, Points>::refineOne(Box box, unsigned axis, std::uint32_t f
     axis = box.openAxis(axis);
     q.turnTo(axis, box.open[axis], box.lower[axis]);
     const bool upper = split(box, q, first, 1) != 0;
-    // Of what lies flat in the box either half holds the same share.
-    if (!isFlatFor(q, 1)) p_.candidates.take(axis, upper);
-    descend(box, axis, upper);
+    p_.take(axis, upper, isFlatFor(q, 1));
+    box.descend(axis, upper);
     q.size[axis] *= 0.5F;
     q.lower[axis] = lowerOf(box, axis);
-    axis = after(axis);
+    axis = Box::after(axis);
+  }
+  emit(box, 1);
+}
+
+/// The only point of a box, axis by axis.
+template <class Coder, class Points>
+void TreeCoder<Coder, Points>::codeResiduals(Box box, Question q, std::uint32_t first) {
+  p_.startResiduals(known_, q);
+  for (unsigned rank = 0; rank < 3; ++rank) {
+    const unsigned axis = p_.residuals.axis(rank);
+    if (box.open[axis] > 0) {
+      q.turnTo(axis, box.open[axis], box.lower[axis]);
+      residualModel_.startAxis(
+          q, p_.residuals.expected(rank, p_.surface, p_.candidates, p_.surfaceError), p_.spacing);
+    }
+    while (box.open[axis] > 0) {
+      const std::uint64_t middle = box.middle(axis);
+      bool upper = false;
+      if (middle <= extent_[axis]) {
+        q.turnTo(axis, box.open[axis], box.lower[axis]);
+        upper = Coder::kWriting &&
+                points_.countUpper(first, 1, axis, static_cast<std::uint32_t>(middle)) != 0;
+        upper = residualModel_.code(*coder_, upper, q, p_);
+      }
+      box.descend(axis, upper);
+      q.size[axis] *= 0.5F;
+      q.lower[axis] = lowerOf(box, axis);
+    }
+    if (rank == 2) break;
+    const float place = lowerOf(box, axis) + 0.5F;
+    p_.residuals.found(axis, place);
+    p_.candidates.weighAt(axis, place);
   }
   emit(box, 1);
 }
@@ -482,11 +504,12 @@ void TreeCoder<Coder, Points>::refineOne(Box box, unsigned axis, std::uint32_t f
 template <class Coder, class Points>
 void TreeCoder<Coder, Points>::emit(const Box& box, std::uint32_t count) {
   const GridPoint point{box.lower[0], box.lower[1], box.lower[2]};
-  std::array<float, 3> at{};
+  Vector3 at{};
   for (unsigned k = 0; k < 3; ++k) {
     at[k] = static_cast<float>(static_cast<std::int64_t>(point[k]) - origin_[k]) + 0.5F;
   }
-  p_.learn(known_, point, at[0], at[1], at[2]);
+  remaining_ -= count;
+  p_.learn(known_, point, at, remaining_ == 0);
   changed_ = true;
   points_.emit(point, count, cell_);
 }
