@@ -7,7 +7,7 @@ build_packages=(
   libxxhash-dev libzstd-dev libeigen3-dev libcli11-dev liblzf-dev nlohmann-json3-dev
   libgtest-dev libbenchmark-dev
 )
-lint_packages=(clang-format clang-tidy)
+lint_packages=(clang-format clang-tidy ccache)
 compiler_packages=(clang)
 # libFuzzer, and what tells the lines of a stack.
 fuzz_packages=(clang libclang-rt-dev llvm)
@@ -35,7 +35,8 @@ Usage: scripts/setup.sh [--lint] [--vtk] [--openmesh] [--paraview] [--compilers]
 Installs the Debian 12 packages that building and testing bspc needs; does nothing where they are
 installed. Needs root or sudo only if something is missing.
 
-  --lint                  also clang-format and clang-tidy, for scripts/lint.sh
+  --lint                  also clang-format and clang-tidy, for scripts/lint.sh, and ccache, for
+                          scripts/test.sh
   --vtk                   also VTK with its Python package, for the preset dev
   --openmesh              also OpenMesh, for the preset dev
   --paraview              also ParaView, for the preset paraview; unpacks ParaView's Python modules

@@ -58,6 +58,9 @@ if [[ $quick == yes ]]; then
   step "packages" scripts/setup.sh --vtk --openmesh
 else
   step "packages" scripts/setup.sh --lint --vtk --openmesh
+  # The builds of the plugin and of everything compile the same library, here once.
+  export CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
+  export CCACHE_DIR=${CCACHE_DIR:-$PWD/build/ccache}
   step "style and layout" scripts/lint.sh
 fi
 # Its libraries and its development files are packages of their own.

@@ -43,7 +43,7 @@ def rows_of(count, seed=1):
 class ArrayTest(CommandTest):
     def setUp(self):
         super().setUp()
-        self.rows = rows_of(3000)
+        self.rows = rows_of(1300)
         write_ply(self.path("in.ply"), self.rows, COLUMNS)
 
     def restore(self, *options, decoding=()):
