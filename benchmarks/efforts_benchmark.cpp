@@ -83,7 +83,7 @@ struct Removal {
   const char* name;
   std::uint32_t flags;
   bool pairs = false;      ///< of near points: without them there are no candidates
-  bool flatBoxes = false;  ///< effort 9 has none
+  bool flatBoxes = false;  ///< efforts 5 and 9 have none
 };
 
 constexpr Removal kRemovals[] = {
@@ -102,11 +102,12 @@ constexpr Removal kRemovals[] = {
     {"coordinates once more, wider", Features::kWideCoordinates},
     {"density", Features::kDensity},
     {"distance to the nearest point", Features::kNearest},
-    {"six more contexts", Features::kManyContexts},
+    {"more contexts", Features::kManyContexts},
     {"mixing in two layers", Features::kTwoLayers},
     {"near points a cell farther off", Features::kFartherPoints},
     {"rows of three that bend", Features::kChains},
     {"flat boxes", 0, false, true},
+    {"lone points axis by axis", Features::kResiduals},
 };
 
 /// Bits a point of a model's payload.

@@ -9,7 +9,7 @@ from predictive_surface import TWELFTH, Question
 from range_coder import RangeDecoder
 from reals import Counter, Counters, Vector, clamp, ln, real, root
 
-FIRST, SECOND, LAST, SURFACE = range(4)
+SURFACE = 3  # where candidates speak, the number of axes before
 
 
 class AxisResiduals:

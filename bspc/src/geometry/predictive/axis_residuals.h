@@ -20,7 +20,7 @@ class AxisResiduals {
   /// What speaks: the candidates, along the first, second or last axis, or the surface.
   enum Kind : unsigned { kFirstAxis, kSecondAxis, kLastAxis, kSurface, kKinds };
 
-  /// The coordinate is spread around `place` with a scale of 1 / inverseScale.
+  /// The coordinate is spread around `place`, in grid steps from the cell's corner, by `scale`.
   struct Expected {
     float place = 0;
     float scale = 1;

@@ -41,7 +41,7 @@ class DecisionModel {
 
  private:
   static constexpr std::uint32_t kSmall = 8;
-  static constexpr unsigned kLogits = 25;  ///< classes of a logit, finely
+  static constexpr unsigned kLogits = kLogitClasses;
   static constexpr unsigned kCoarse = 17;  ///< and coarsely
   static constexpr unsigned kSizes = 18;   ///< classes of the box's size in spacings
   static constexpr unsigned kErrors = 10;
@@ -57,7 +57,7 @@ class DecisionModel {
   /// What a side decision is about: the only point of a box, one of two points, one of more.
   enum SideKind : unsigned { kLonePoint, kOneOfTwo, kMajority, kSideKinds };
 
-  static unsigned fine(float logit) { return entropy::classOf(logit, 2, 12.5F, kLogits); }
+  static unsigned fine(float logit) { return logitClass(logit); }
   static unsigned coarse(float logit) { return entropy::classOf(logit, 2, 8.5F, kCoarse); }
 
   /// Classes that several contexts share.

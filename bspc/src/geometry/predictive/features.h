@@ -18,7 +18,7 @@ struct Features {
     kWideCoordinates = 1U << 7,  ///< coordinates of near points at a second width
     kDensity = 1U << 8,          ///< how many points lie on either side
     kNearest = 1U << 9,          ///< distance of either half to the nearest point
-    kManyContexts = 1U << 10,    ///< six more contexts of side decisions
+    kManyContexts = 1U << 10,    ///< more contexts of side decisions: six, two in two layers
     kPhase = 1U << 11,           ///< a lattice finer than the grid or offset from it
     kMirror = 1U << 12,          ///< mirrored copies
     kRangeImage = 1U << 13,      ///< raster of a depth camera

@@ -15,6 +15,12 @@
 namespace bspc::geometry::predictive {
 inline namespace BSPC_LANE_SET {
 
+/// Fine classes of evidence.
+constexpr unsigned kLogitClasses = 25;
+inline unsigned logitClass(float evidence) {
+  return entropy::classOf(evidence, 2, 12.5F, kLogitClasses);
+}
+
 /// Everything that predicts, over one neighbourhood. Each predictor is told what is known around
 /// the box, is asked the question, and leaves its evidence (a logit for the upper half) and a class
 /// of the situation as it sees it in its members. DecisionModel makes inputs and contexts of them.

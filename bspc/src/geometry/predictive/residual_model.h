@@ -47,18 +47,17 @@ class ResidualModel {
   }
 
  private:
-  static constexpr unsigned kOpens = 8;       ///< classes of the side's length
-  static constexpr unsigned kLongOpens = 16;  ///< where longer ones differ
-  static constexpr unsigned kScales = 12;     ///< classes of the scale
-  static constexpr unsigned kDistances = 17;  ///< classes of how far the expected place is
-  static constexpr unsigned kLogits = 25;
+  static constexpr unsigned kOpens = 8;         ///< classes of the side's length
+  static constexpr unsigned kLongOpens = 16;    ///< where longer ones differ
+  static constexpr unsigned kScales = 12;       ///< classes of the scale
+  static constexpr unsigned kDistances = 17;    ///< classes of how far the expected place is
   static constexpr float kSure = 2;             ///< logit from which on one half is likely
   static constexpr unsigned kSureClasses = 16;  ///< of logits beyond
   static constexpr unsigned kKinds = AxisResiduals::kKinds;
   static constexpr unsigned kSureSize = kKinds * kOpens * kSureClasses;
   static constexpr unsigned kNearSize = kKinds * 2 * kScales * kDistances * kOpens;
   static constexpr unsigned kValuesSize = kLongOpens * AxisValues::kClasses * AxisValues::kClasses;
-  static constexpr unsigned kPhasesSize = 3 * kLongOpens * kLogits;
+  static constexpr unsigned kPhasesSize = 3 * kLongOpens * kLogitClasses;
   static constexpr unsigned kInputs = 6;
   static constexpr float kWeight = 0.3F;
   static constexpr unsigned kCounterAge = 60;
@@ -93,8 +92,8 @@ class ResidualModel {
     }
     if (p.phaseSpeaks) {
       e.add(p.phaseEvidence);
-      const unsigned phase = entropy::classOf(p.phaseEvidence, 2, 12.5F, kLogits);
-      e.add(phases_[(q.axis * kLongOpens + longOpen) * kLogits + phase]);
+      e.add(
+          phases_[(q.axis * kLongOpens + longOpen) * kLogitClasses + logitClass(p.phaseEvidence)]);
     }
     const unsigned set = (kind_ * 3 + q.axis) * kOpens + open;
     return mixer_.code(coder, upper, e, {2 * set + (p.phaseSpeaks ? 1 : 0)});
